@@ -1,0 +1,218 @@
+"""Every difference between the DOLFINx generations 0.5, 0.9 and 0.11, and nothing else.
+
+The rest of the package calls these functions; each decides by the features that it finds, not by
+version numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import dolfinx
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+from petsc4py import PETSc
+
+# Hyperelastic kernels are long; optimising them halves assembly. -Ofast would defeat NaN checks.
+_JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"], "cffi_libraries": ["m"]}
+_FORM_KEYWORDS = (
+    {"jit_options": _JIT_OPTIONS}
+    if "jit_options" in fem.form.__code__.co_varnames
+    else {"jit_params": _JIT_OPTIONS}
+)
+_HAS_BASIX_UFL = hasattr(fem, "functionspace")
+if _HAS_BASIX_UFL:
+    import basix.ufl
+    import dolfinx.fem.petsc
+    from dolfinx import default_scalar_type as scalar_type
+else:
+    scalar_type = PETSc.ScalarType
+
+
+def version() -> str:
+    """Return the DOLFINx version string."""
+    return dolfinx.__version__
+
+
+# -- meshes -----------------------------------------------------------------------------------
+
+
+def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray) -> Any:
+    """Distribute a mesh of first-order cells.
+
+    Parameters
+    ----------
+    comm
+        Communicator; every rank calls, the cells of rank 0 are used.
+    cell
+        ``"hexahedron"`` (tensor-product vertex order) or ``"interval"`` (may branch).
+    cells
+        Vertices of each cell, shape (n_cells, n_vertices).
+    points
+        Coordinates in mm, shape (n_points, 3).
+    """
+    if comm.rank != 0:
+        cells, points = cells[:0], points[:0]
+    cells = np.ascontiguousarray(cells, dtype=np.int64)
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    if _HAS_BASIX_UFL:
+        element = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
+        arguments = (element, points) if _cells_then_element() else (points, element)
+        return dolfinx.mesh.create_mesh(comm, cells, *arguments)
+    domain = ufl.Mesh(ufl.VectorElement("Lagrange", ufl.Cell(cell, geometric_dimension=3), 1))
+    return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
+
+
+def _cells_then_element() -> bool:
+    names = dolfinx.mesh.create_mesh.__code__.co_varnames[:4]
+    return names.index("e") < names.index("x") if "e" in names else False
+
+
+def original_cells(mesh: Any) -> np.ndarray:
+    """Return the index in the input array of each local cell (owned and ghosted)."""
+    return np.asarray(mesh.topology.original_cell_index)
+
+
+def facet_tags(mesh: Any, facets: np.ndarray, values: np.ndarray) -> Any:
+    """Return mesh tags on local facets; repeated facets keep their first value."""
+    facets, first = np.unique(np.asarray(facets, dtype=np.int32), return_index=True)
+    values = np.asarray(values, dtype=np.int32)[first]
+    return dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, facets, values)
+
+
+def cell_tags(mesh: Any, cells: np.ndarray, values: np.ndarray) -> Any:
+    """Return mesh tags on local cells."""
+    order = np.argsort(cells)
+    cells = np.asarray(cells, dtype=np.int32)[order]
+    values = np.asarray(values, dtype=np.int32)[order]
+    return dolfinx.mesh.meshtags(mesh, mesh.topology.dim, cells, values)
+
+
+def cell_facets(mesh: Any) -> np.ndarray:
+    """Return the local facets of each local cell, shape (n_cells, facets per cell)."""
+    tdim = mesh.topology.dim
+    mesh.topology.create_connectivity(tdim, tdim - 1)
+    mesh.topology.create_connectivity(tdim - 1, tdim)
+    connectivity = mesh.topology.connectivity(tdim, tdim - 1)
+    n_cells = mesh.topology.index_map(tdim).size_local + mesh.topology.index_map(tdim).num_ghosts
+    return connectivity.array.reshape(n_cells, -1)
+
+
+# -- spaces -----------------------------------------------------------------------------------
+
+
+def vector_space(mesh: Any, degree: int, size: int = 3) -> Any:
+    """Return continuous Lagrange vectors (Q or P by the cell) with ``size`` components."""
+    if _HAS_BASIX_UFL:
+        return fem.functionspace(mesh, ("Lagrange", degree, (size,)))
+    return fem.VectorFunctionSpace(mesh, ("Lagrange", degree), dim=size)
+
+
+def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> Any:
+    """Return discontinuous Lagrange scalars, or tensors of a shape."""
+    if _HAS_BASIX_UFL:
+        return fem.functionspace(mesh, ("DG", degree, shape) if shape else ("DG", degree))
+    if not shape:
+        return fem.FunctionSpace(mesh, ("DG", degree))
+    if len(shape) == 1:
+        return fem.VectorFunctionSpace(mesh, ("DG", degree), dim=shape[0])
+    return fem.TensorFunctionSpace(mesh, ("DG", degree), shape=shape)
+
+
+def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int]) -> Any:
+    """Return the mixed space of a continuous displacement and a pressure.
+
+    ``pressure`` is ``("DPC", 1)`` (P1 in each cell), ``("DG", 0)`` or ``("Lagrange", 1)``.
+    """
+    if _HAS_BASIX_UFL:
+        cell = mesh.basix_cell()
+        u = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
+        p = basix.ufl.element(*pressure, cell)
+        if isinstance(pressure[1], int):
+            p = basix.ufl.element(pressure[0], cell, pressure[1], **_pressure_options(pressure))
+        return fem.functionspace(mesh, basix.ufl.mixed_element([u, p]))
+    u = ufl.VectorElement("Lagrange", mesh.ufl_cell(), degree)
+    p = ufl.FiniteElement(pressure[0], mesh.ufl_cell(), pressure[1])
+    return fem.FunctionSpace(mesh, ufl.MixedElement([u, p]))
+
+
+def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
+    if pressure[0] == "DPC":
+        variant = basix.DPCVariant.legendre
+        return {"dpc_variant": variant, "lagrange_variant": basix.LagrangeVariant.legendre,
+                "discontinuous": True}
+    return {}
+
+
+def interpolation_points(space: Any) -> np.ndarray:
+    """Return the reference points at which a space interpolates."""
+    points = space.element.interpolation_points
+    return points() if callable(points) else points
+
+
+# -- forms and assembly -----------------------------------------------------------------------
+
+
+def form(expression: Any) -> Any:
+    """Compile a UFL form with optimised kernels."""
+    return fem.form(expression, **_FORM_KEYWORDS)
+
+
+def expression(value: Any, points: np.ndarray) -> Any:
+    """Compile a UFL expression for evaluation at reference points."""
+    return fem.Expression(value, points, **_FORM_KEYWORDS)
+
+
+def assemble_scalar(comm: MPI.Comm, functional: Any) -> float:
+    """Assemble a compiled functional over all ranks."""
+    return comm.allreduce(float(np.real(fem.assemble_scalar(functional))), op=MPI.SUM)
+
+
+def assemble_vector(functional: Any, out: np.ndarray) -> None:
+    """Add a compiled linear form's rank-local contributions (owned and ghosted) to ``out``."""
+    fem.assemble_vector(out, functional)
+
+
+def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:
+    """Add a compiled bilinear form to a local reference of a matrix, without finalising it."""
+    constants, coefficients = _packed(bilinear)
+    _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [], False)
+
+
+def sparsity(bilinear: Any) -> PETSc.Mat:
+    """Return an empty matrix with the pattern of a compiled bilinear form."""
+    return _cpp_petsc().create_matrix(_cpp(bilinear))
+
+
+def _cpp_petsc() -> Any:
+    try:
+        return dolfinx.cpp.fem.petsc
+    except AttributeError:
+        import dolfinx.fem.petsc
+
+        return dolfinx.cpp.fem.petsc
+
+
+def _cpp(bilinear: Any) -> Any:
+    return getattr(bilinear, "_cpp_object", bilinear)
+
+
+def _packed(bilinear: Any) -> tuple[Any, Any]:
+    if hasattr(dolfinx.cpp.fem, "pack_coefficients"):
+        compiled = _cpp(bilinear)
+        return dolfinx.cpp.fem.pack_constants(compiled), dolfinx.cpp.fem.pack_coefficients(compiled)
+    return fem.pack_constants(bilinear), fem.pack_coefficients(bilinear)
+
+
+# -- drawing ----------------------------------------------------------------------------------
+
+
+def vtk_mesh(space: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return VTK topology, cell types and points of a Lagrange space, higher order kept."""
+    import dolfinx.plot as plot
+
+    make: Callable = plot.vtk_mesh if hasattr(plot, "vtk_mesh") else plot.create_vtk_mesh
+    return make(space)
