@@ -1,0 +1,125 @@
+"""Materials: the silicone of the spar and skin, the resin of the ribs.
+
+``DRAGON_SKIN_30`` and ``RESIN`` carry the paper's constants (section 1 of the reference numbers);
+moduli are in MPa.
+"""
+
+from __future__ import annotations
+
+import numbers
+from dataclasses import dataclass
+
+from morphing_wing.errors import require
+
+__all__ = ["DRAGON_SKIN_30", "RESIN", "Elastic", "Yeoh"]
+
+BULK_PER_SHEAR = 1000.0
+"""Default bulk over initial shear modulus: nearly incompressible (Poisson's ratio 0.4995)."""
+
+
+@dataclass(frozen=True)
+class Yeoh:
+    r"""Rubber after Yeoh: a polynomial in the first invariant, with any number of terms.
+
+    .. math:: W = \sum_{i=1}^{n} C_{i0} (\bar I_1 - 3)^i + \frac{\kappa}{2} (J - 1)^2,
+        \qquad \bar I_1 = J^{-2/3} \mathrm{tr}(F^T F)
+
+    (Yeoh 1993). Higher coefficients may be negative, as the paper's second one is; the law then
+    softens and stops being stable at a large stretch.
+
+    Parameters
+    ----------
+    coefficients
+        C10, C20, ... in MPa; the first must be positive, for the initial shear modulus is 2 C10.
+    bulk
+        Bulk modulus kappa in MPa; None: 1000 times the initial shear modulus.
+
+    Examples
+    --------
+    >>> Yeoh((0.117, -0.0006865)).shear_modulus
+    0.234
+    """
+
+    coefficients: tuple[float, ...]
+    bulk: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the constants and fill in the default bulk modulus."""
+        given = self.coefficients
+        if isinstance(given, numbers.Real):
+            given = (given,)
+        is_sequence = hasattr(given, "__iter__") and not isinstance(given, str)
+        given = tuple(given) if is_sequence else given
+        require(
+            is_sequence and len(given) > 0 and all(map(is_number, given)),
+            "coefficients", given, "MPa", "one or more finite numbers C10, C20, ... in MPa",
+        )  # fmt: skip
+        coefficients = tuple(float(c) for c in given)
+        shear = 2.0 * coefficients[0]
+        require(shear > 0, "initial shear modulus 2 C10", shear, "MPa", "greater than 0 MPa")
+        bulk = BULK_PER_SHEAR * shear if self.bulk is None else self.bulk
+        require(is_number(bulk) and bulk > 0, "bulk", bulk, "MPa", "greater than 0 MPa")
+        object.__setattr__(self, "coefficients", coefficients)
+        object.__setattr__(self, "bulk", float(bulk))
+
+    @property
+    def shear_modulus(self) -> float:
+        """Shear modulus at zero strain, mu = 2 C10, in MPa."""
+        return 2.0 * self.coefficients[0]
+
+
+@dataclass(frozen=True)
+class Elastic:
+    r"""Isotropic resin, by Young's modulus and Poisson's ratio.
+
+    .. math:: G = \frac{E}{2 (1 + \nu)}, \qquad \lambda = \frac{E \nu}{(1 + \nu)(1 - 2 \nu)}
+
+    The paper gives E = 2370 to 2640 MPa for its resin, which yields at 35 MPa.
+
+    Parameters
+    ----------
+    E
+        Young's modulus in MPa, greater than 0.
+    nu
+        Poisson's ratio, between -1 and 0.5, both excluded.
+
+    Examples
+    --------
+    >>> round(Elastic(E=2500.0, nu=0.35).shear_modulus, 1)
+    925.9
+    """
+
+    E: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        """Check both constants."""
+        require(is_number(self.E) and self.E > 0, "E", self.E, "MPa", "greater than 0 MPa")
+        require(
+            is_number(self.nu) and -1.0 < self.nu < 0.5,
+            "nu", self.nu, "", "greater than -1 and less than 0.5",
+        )  # fmt: skip
+        object.__setattr__(self, "E", float(self.E))
+        object.__setattr__(self, "nu", float(self.nu))
+
+    @property
+    def shear_modulus(self) -> float:
+        """Shear modulus G in MPa."""
+        return self.E / (2.0 * (1.0 + self.nu))
+
+    @property
+    def lame_modulus(self) -> float:
+        """Lame's first modulus lambda in MPa."""
+        return self.E * self.nu / ((1.0 + self.nu) * (1.0 - 2.0 * self.nu))
+
+
+def is_number(value: object) -> bool:
+    """Whether ``value`` is a real number; True and False are not meant as numbers here."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+DRAGON_SKIN_30 = Yeoh((0.117, -0.0006865))
+"""Dragon Skin 30 silicone, the paper's fit: C10 = 0.117, C20 = -0.0006865 MPa."""
+
+RESIN = Elastic(E=2500.0, nu=0.35)
+"""The ribs' printed resin: the middle of the paper's 2370 to 2640 MPa."""
