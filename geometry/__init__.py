@@ -1,0 +1,1 @@
+"""Geometry: parameters to points, cells and named regions; numpy and gmsh only."""

@@ -1,0 +1,1 @@
+"""Pneumatic morphing wings with pantographic ribs on FEniCSx."""
