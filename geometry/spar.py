@@ -1,0 +1,169 @@
+"""The cuboid pneumatic spar of the paper's Section 3: two rows of chambers, one middle layer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from morphing_wing.errors import require
+
+from .hexmesh import HexMesh, breakpoints, geometric, swept_blocks, two_sided, uniform
+
+
+@dataclass(frozen=True)
+class SparMeshing:
+    """Intervals of each piece of the spar, as breakpoints in [0, 1].
+
+    Attributes
+    ----------
+    cavity_length, wall_length : (n,) arrays
+        Along the span, within one chamber and one wall between chambers.
+    cavity_width, side_thickness : (n,) arrays
+        Along x: half a chamber from the symmetry plane to the side wall, and the side wall.
+    top_thickness, cavity_height, middle_thickness : (n,) arrays
+        Along y.
+    """
+
+    cavity_length: np.ndarray
+    wall_length: np.ndarray
+    cavity_width: np.ndarray
+    side_thickness: np.ndarray
+    top_thickness: np.ndarray
+    cavity_height: np.ndarray
+    middle_thickness: np.ndarray
+
+    @classmethod
+    def plain(cls) -> SparMeshing:
+        """Return the mesh on which other codes' figures are known: 1228 cells for 20 chambers."""
+        return cls(
+            cavity_length=uniform(2),
+            wall_length=uniform(1),
+            cavity_width=geometric(3, 0.5),
+            side_thickness=uniform(1),
+            top_thickness=uniform(1),
+            cavity_height=uniform(2),
+            middle_thickness=uniform(1),
+        )
+
+    @classmethod
+    def graded(cls, level: int = 1) -> SparMeshing:
+        """Return a mesh graded along the span towards the re-entrant chamber corners."""
+        return cls(
+            cavity_length=two_sided(2 * level + 2, 3.0),
+            wall_length=two_sided(2 * level, 3.0),
+            cavity_width=geometric(3 + level, 0.5),
+            side_thickness=uniform(level),
+            top_thickness=uniform(level),
+            cavity_height=two_sided(level + 1, 2.0),
+            middle_thickness=uniform(level),
+        )
+
+
+@dataclass(frozen=True)
+class SparGeometry:
+    """Dimensions of the cuboid spar in mm (paper: Section 3.1, Figure 3).
+
+    Attributes
+    ----------
+    cavity_length
+        Length of a chamber along the span, l_c.
+    wall_length
+        Thickness of the wall between two chambers, l_s1; also of both end walls.
+    top_thickness
+        Thickness of the top and of the bottom wall, h_t.
+    cavity_height
+        Height of a chamber, h_c.
+    middle_thickness
+        Thickness of the layer between the two rows, h_m.
+    side_thickness
+        Thickness of the walls along the span, w_s2.
+    cavity_width
+        Chordwise width of a chamber, w_c.
+    n_cells
+        Number of chambers in each of the two rows, N.
+    """
+
+    cavity_length: float
+    wall_length: float
+    top_thickness: float
+    cavity_height: float
+    middle_thickness: float
+    side_thickness: float
+    cavity_width: float
+    n_cells: int
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be built."""
+        for field in fields(self)[:-1]:
+            value = getattr(self, field.name)
+            ok = isinstance(value, (int, float)) and np.isfinite(value) and value > 0
+            require(ok, field.name, value, "mm", "a finite length greater than 0 mm")
+        ok = isinstance(self.n_cells, (int, np.integer)) and self.n_cells >= 1
+        require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
+
+    @classmethod
+    def validation(cls, n_cells: int = 20) -> SparGeometry:
+        """Return the set with which the paper validates its formulas (Section 3.3)."""
+        return cls(
+            cavity_length=2.8,
+            wall_length=2.2,
+            top_thickness=1.0,
+            cavity_height=6.0,
+            middle_thickness=2.8,
+            side_thickness=1.2,
+            cavity_width=40.0,
+            n_cells=n_cells,
+        )
+
+    @property
+    def length(self) -> float:
+        """Span in mm: every chamber with its walls, an end wall on both sides."""
+        return self.n_cells * (self.cavity_length + self.wall_length) + self.wall_length
+
+    @property
+    def height(self) -> float:
+        """Height in mm over all."""
+        return 2 * (self.top_thickness + self.cavity_height) + self.middle_thickness
+
+    @property
+    def width(self) -> float:
+        """Chordwise width in mm over all."""
+        return self.cavity_width + 2 * self.side_thickness
+
+    def mesh(self, meshing: SparMeshing | None = None, half: bool = True) -> HexMesh:
+        """Return swept hexahedra; x from the symmetry plane, y up from the middle, z from the root.
+
+        Faces: ``root`` (z = 0), ``tip``, ``upper_chambers``, ``lower_chambers``, and ``symmetry``
+        (x = 0) of the half model, which holds x >= 0.
+        """
+        parts = meshing or SparMeshing.graded()
+        x, x_piece = breakpoints(
+            (self.cavity_width / 2, parts.cavity_width), (self.side_thickness, parts.side_thickness)
+        )
+        inside_x = x_piece == 0
+        if not half:
+            x = np.concatenate([-x[:0:-1], x])
+            inside_x = np.concatenate([inside_x[::-1], inside_x])
+        y, y_piece = breakpoints(
+            (self.top_thickness, parts.top_thickness),
+            (self.cavity_height, parts.cavity_height),
+            (self.middle_thickness, parts.middle_thickness),
+            (self.cavity_height, parts.cavity_height),
+            (self.top_thickness, parts.top_thickness),
+        )
+        cell = [(self.cavity_length, parts.cavity_length), (self.wall_length, parts.wall_length)]
+        z, z_piece = breakpoints((self.wall_length, parts.wall_length), *cell * self.n_cells)
+
+        kind = np.ones((len(inside_x), len(y_piece), len(z_piece)), dtype=int)
+        for row, value in ((3, -1), (1, -2)):
+            kind[np.ix_(inside_x, y_piece == row, z_piece % 2 == 1)] = value
+        names = {1: "elastomer", -1: "upper_chambers", -2: "lower_chambers"}
+
+        def faces(midpoints: np.ndarray, normals: np.ndarray) -> dict[str, np.ndarray]:
+            named = {"root": normals[:, 2] < 0, "tip": normals[:, 2] > 0}
+            if half:
+                named["symmetry"] = (normals[:, 0] < 0) & (np.abs(midpoints[:, 0]) < 1e-9)
+            return named
+
+        return swept_blocks((x, y - self.height / 2, z), kind, names, faces=faces)
