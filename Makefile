@@ -1,0 +1,39 @@
+# What a newcomer types: make demo, make test. Each installs what is missing first.
+
+python := .venv/bin/python
+bin := .venv/bin
+ranks ?= 2
+
+# One thread a rank: MPI's ranks are what uses the cores.
+export OMP_NUM_THREADS ?= 1
+export OMPI_ALLOW_RUN_AS_ROOT := 1
+export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+mpirun := mpirun --oversubscribe
+
+.PHONY: help setup demo test quick parallel lint
+
+help:
+	@echo "make setup   install what is missing: Debian's packages, then .venv (does nothing twice)"
+	@echo "make demo    solve the whole wing on $(ranks) ranks; pictures and curves in output/"
+	@echo "make test    all tests, then the parallel ones on 2 and 3 ranks"
+	@echo "make quick   the tests that take seconds"
+	@echo "make lint    ruff"
+
+setup:
+	@sh setup/system.sh
+	@sh setup/venv.sh
+
+demo: setup
+	$(mpirun) -n $(ranks) $(python) demos/full_wing.py
+
+test: setup
+	$(python) -m pytest
+	$(mpirun) -n 2 $(python) -m pytest tests/parallel
+	$(mpirun) -n 3 $(python) -m pytest tests/parallel
+
+quick: setup
+	$(python) -m pytest -m quick
+	$(mpirun) -n 2 $(python) -m pytest -m quick tests/parallel
+
+lint: setup
+	$(bin)/ruff check .
