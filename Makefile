@@ -24,16 +24,16 @@ setup:
 	@sh setup/venv.sh
 
 demo: setup
-	$(mpirun) -n $(ranks) $(python) demos/full_wing.py
+	mpirun -n $(ranks) $(python) demos/full_wing.py
 
 test: setup
 	$(python) -m pytest
-	$(mpirun) -n 2 $(python) -m pytest tests/parallel
-	$(mpirun) -n 3 $(python) -m pytest tests/parallel
+	mpirun -n 2 $(python) -m pytest tests/parallel
+	mpirun -n 3 $(python) -m pytest tests/parallel
 
 quick: setup
 	$(python) -m pytest -m quick
-	$(mpirun) -n 2 $(python) -m pytest -m quick tests/parallel
+	mpirun -n 2 $(python) -m pytest -m quick tests/parallel
 
 lint: setup
 	$(bin)/ruff check .

@@ -2,12 +2,14 @@
 
 import importlib
 
+# First, as in every program: it prepares BLAS and MPI for what is loaded next.
+from morphing_wing import blas
+
+# isort: split
 import dolfinx
 import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
-
-from morphing_wing import blas
 
 if np.issubdtype(PETSc.ScalarType, np.complexfloating):
     raise SystemExit("setup: petsc4py is built for complex numbers: install python3-petsc4py-real")

@@ -55,11 +55,13 @@ inside() {
     unshare --mount sh -euc '
         root=$1; shift
         mount -t proc proc "$root/proc"
+        mount -t sysfs -o ro sysfs "$root/sys"
         mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
         mount -t tmpfs tmpfs "$root/dev/shm"
         exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
             DEBIAN_FRONTEND=noninteractive OMP_NUM_THREADS=1 \
             OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+            PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe \
             ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
             ${no_proxy:+no_proxy="$no_proxy"} ${PIP_INDEX_URL:+PIP_INDEX_URL="$PIP_INDEX_URL"} \
             ${PIP_CERT:+PIP_CERT="$PIP_CERT"} \
@@ -74,7 +76,7 @@ fi
 
 if [ $# = 0 ]; then
     set -- sh -c 'python -m pytest -m quick &&
-        mpirun --oversubscribe -n 2 python -m pytest -m quick tests/parallel'
+        mpirun -n 2 python -m pytest -m quick tests/parallel'
 fi
 say "in $root$home with $environment: $*"
 inside sh -c 'cd '$home' && . '$environment'/bin/activate && exec "$@"' sh "$@"
