@@ -1,0 +1,126 @@
+"""A frame of beams on a branching interval mesh: its unknowns, its energy and its ends."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from morphing_wing.forms.beam import QUADRATURE_DEGREE, beam_energy
+from morphing_wing.geometry.frame import Frame
+from morphing_wing.materials import Elastic
+
+from . import compat
+
+
+class BeamFrame:
+    """The finite-element side of a `Frame`, of one or several ribs.
+
+    Parameters
+    ----------
+    comm
+        Communicator; the mesh is distributed over it.
+    frame
+        Points, bars, axes and sections; the same on every rank.
+    material
+        The ribs' resin.
+
+    Attributes
+    ----------
+    mesh
+        Interval mesh in 3D, one cell a bar; local cell c is bar ``bars[c]``.
+    function
+        w = (u, theta) in mm and radians, quadratic, block size 6.
+    energy
+        UFL functional: stored energy in N mm.
+    """
+
+    def __init__(self, comm: MPI.Comm, frame: Frame, material: Elastic) -> None:
+        self.comm, self.frame = comm, frame
+        self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points)
+        self.bars = compat.original_cells(self.mesh)
+        self.function = fem.Function(compat.vector_space(self.mesh, 2, 6), name="ribs")
+        axes = self.cellwise(frame.axes)
+        stiffness = self.cellwise(frame.stiffness(material.E, material.nu))
+        dx = ufl.dx(domain=self.mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
+        self.energy = beam_energy(self.function, axes, stiffness) * dx
+
+    def cellwise(self, values: np.ndarray) -> fem.Function:
+        """Return the function with one value a bar, ``values`` of shape (m,), (m, k) or (m, k, l)."""
+        space = compat.discontinuous_space(self.mesh, 0, values.shape[1:])
+        function = fem.Function(space)
+        size = int(np.prod(values.shape[1:], dtype=int))
+        table = function.x.array.reshape(-1, size)
+        for cell, bar in enumerate(self.bars):
+            table[space.dofmap.cell_dofs(cell)[0]] = values[bar].ravel()
+        return function
+
+    def at_ends(self, kind: str, integrand: Any, weights: np.ndarray | None = None) -> Any:
+        """Return the sum of an integrand over the ribs' roots or tails as a UFL functional.
+
+        Parameters
+        ----------
+        kind
+            ``"root"`` or ``"tail"``.
+        integrand
+            UFL, evaluated at the end points.
+        weights : (n_ribs,) array, optional
+            Factor of each rib; default 1.
+        """
+        # Root and tail points alone belong to one cell only: they are the exterior facets.
+        frame = self.frame
+        weights = np.ones(len(frame.roots)) if weights is None else np.asarray(weights, float)
+        chosen = frame.kinds == frame.names.index(kind)
+        factor = self.cellwise(np.where(chosen, weights[frame.ribs], 0.0))
+        ds = ufl.ds(domain=self.mesh, metadata={"quadrature_degree": 1})
+        return factor * integrand * ds
+
+    def end_dofs(self, kind: str, rib: int) -> np.ndarray:
+        """Return the six local dofs of a rib's root or tail where this rank has them, else none.
+
+        Displacements first, then rotations. Owned or ghost: see `owned`.
+        """
+        frame = self.frame
+        point = (frame.roots if kind == "root" else frame.tails)[rib]
+        here = np.flatnonzero(
+            (frame.kinds[self.bars] == frame.names.index(kind)) & (frame.ribs[self.bars] == rib)
+        )
+        if len(here) == 0:
+            return np.empty(0, dtype=np.int32)
+        space = self.function.function_space
+        nodes = space.dofmap.cell_dofs(here[0])
+        away = np.linalg.norm(
+            space.tabulate_dof_coordinates()[nodes] - frame.points[point], axis=1
+        )
+        return (6 * nodes[np.argmin(away)] + np.arange(6)).astype(np.int32)
+
+    def owned(self, dofs: np.ndarray) -> np.ndarray:
+        """Return the dofs if this rank owns them, else none."""
+        n_owned = 6 * self.function.function_space.dofmap.index_map.size_local
+        return dofs[dofs < n_owned]
+
+    def end_values(self, kind: str, rib: int) -> np.ndarray:
+        """Return u (mm) and theta of a rib's root or tail on every rank, shape (6,)."""
+        values = np.zeros(6)
+        dofs = self.owned(self.end_dofs(kind, rib))
+        if len(dofs):
+            values[:] = self.function.x.array[dofs]
+        return self.comm.allreduce(values, op=MPI.SUM)
+
+
+def rotation_about_z(theta: np.ndarray) -> float:
+    """Return the turn about z in degrees, positive down (clockwise), of a rotation vector.
+
+    It is the angle in the x-y plane between x and the turned x; for turns about z alone it is
+    minus theta_z, of turns up to half a revolution.
+    """
+    angle = float(np.linalg.norm(theta))
+    if angle == 0.0:
+        return 0.0
+    a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / angle**2
+    turned_x = 1.0 - b * (theta[1] ** 2 + theta[2] ** 2)
+    turned_y = a * theta[2] + b * theta[0] * theta[1]
+    return float(-np.degrees(np.arctan2(turned_y, turned_x)))
