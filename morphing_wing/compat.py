@@ -6,10 +6,14 @@ version numbers.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import dolfinx
+import dolfinx.fem.petsc
+import dolfinx.plot
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -26,7 +30,6 @@ _FORM_KEYWORDS = (
 _HAS_BASIX_UFL = hasattr(fem, "functionspace")
 if _HAS_BASIX_UFL:
     import basix.ufl
-    import dolfinx.fem.petsc
     from dolfinx import default_scalar_type as scalar_type
 else:
     scalar_type = PETSc.ScalarType
@@ -158,12 +161,25 @@ def interpolation_points(space: Any) -> np.ndarray:
 
 def form(expression: Any) -> Any:
     """Compile a UFL form with optimised kernels."""
-    return fem.form(expression, **_FORM_KEYWORDS)
+    with _quiet_compiler():
+        return fem.form(expression, **_FORM_KEYWORDS)
 
 
 def expression(value: Any, points: np.ndarray) -> Any:
     """Compile a UFL expression for evaluation at reference points."""
-    return fem.Expression(value, points, **_FORM_KEYWORDS)
+    with _quiet_compiler():
+        return fem.Expression(value, points, **_FORM_KEYWORDS)
+
+
+@contextmanager
+def _quiet_compiler() -> Iterator[None]:
+    """Keep the build tool's log of compiler calls off the screen."""
+    before = logging.root.manager.disable
+    logging.disable(logging.INFO)
+    try:
+        yield
+    finally:
+        logging.disable(before)
 
 
 def assemble_scalar(comm: MPI.Comm, functional: Any) -> float:
@@ -179,21 +195,21 @@ def assemble_vector(functional: Any, out: np.ndarray) -> None:
 def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:
     """Add a compiled bilinear form to a local reference of a matrix, without finalising it."""
     constants, coefficients = _packed(bilinear)
-    _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [], False)
+    _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [], True)
 
 
 def sparsity(bilinear: Any) -> PETSc.Mat:
-    """Return an empty matrix with the pattern of a compiled bilinear form."""
-    return _cpp_petsc().create_matrix(_cpp(bilinear))
+    """Return a matrix with the pattern of a compiled bilinear form."""
+    matrix = _cpp_petsc().create_matrix(_cpp(bilinear))
+    constants, coefficients = _packed(bilinear)
+    # What is never set is squeezed out of a PETSc matrix, so set everything once.
+    _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [])
+    matrix.assemble()
+    return matrix
 
 
 def _cpp_petsc() -> Any:
-    try:
-        return dolfinx.cpp.fem.petsc
-    except AttributeError:
-        import dolfinx.fem.petsc
-
-        return dolfinx.cpp.fem.petsc
+    return dolfinx.cpp.fem.petsc
 
 
 def _cpp(bilinear: Any) -> Any:
@@ -212,7 +228,6 @@ def _packed(bilinear: Any) -> tuple[Any, Any]:
 
 def vtk_mesh(space: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return VTK topology, cell types and points of a Lagrange space, higher order kept."""
-    import dolfinx.plot as plot
-
+    plot = dolfinx.plot
     make: Callable = plot.vtk_mesh if hasattr(plot, "vtk_mesh") else plot.create_vtk_mesh
     return make(space)

@@ -1,0 +1,211 @@
+"""A hyperelastic body of hexahedra: its function, its energy, its chambers and its faces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from . import compat
+from .elements import Element
+from .forms.hyperelasticity import (
+    mixed_point_tangent_correction,
+    mixed_volumetric_energy,
+    volumetric_energy,
+    yeoh_energy,
+)
+from .forms.kinematics import cofactor, deformation_gradient
+from .forms.pressure import enclosed_volume
+from .geometry.hexmesh import HexMesh
+from .materials import Yeoh
+from .system import Block
+
+
+class Elastomer:
+    """One elastomer body on a distributed mesh.
+
+    Parameters
+    ----------
+    comm
+        Communicator.
+    grid
+        Mesh with named regions and faces; the one of rank 0 is used.
+    material
+        Yeoh material.
+    element
+        Finite element.
+    clamped
+        Faces whose points do not move.
+    symmetry
+        Faces that stay in their plane: mapping of name to axis (0, 1, 2).
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Comm,
+        grid: HexMesh,
+        material: Yeoh,
+        element: Element,
+        clamped: Sequence[str] = (),
+        symmetry: dict[str, int] | None = None,
+    ) -> None:
+        self.comm, self.grid, self.material, self.element = comm, grid, material, element
+        self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
+        self._tag_faces()
+        if element.pressure is None:
+            space = compat.vector_space(self.mesh, element.degree)
+        else:
+            space = compat.displacement_pressure_space(
+                self.mesh, element.degree, element.pressure
+            )
+        self.function = fem.Function(space, name="elastomer")
+        constrained = self._constrained(space, clamped, symmetry or {})
+        self.block = Block(self.function, constrained)
+        if element.pressure is None:
+            self.u, self.p = self.function, None
+            self._last = fem.Function(space)
+            self._linearised = fem.Constant(self.mesh, compat.scalar_type(0.0))
+        else:
+            self.u, self.p = ufl.split(self.function)
+        self.X = ufl.SpatialCoordinate(self.mesh)
+        self.normal = ufl.FacetNormal(self.mesh)
+
+    # -- energies -----------------------------------------------------------------------------
+
+    @cached_property
+    def energy(self) -> Any:
+        """Stored energy in N mm, a UFL functional."""
+        F = deformation_gradient(self.u)
+        dx = self.volume_measure(self.element.quadrature)
+        dx_volumetric = self.volume_measure(self.element.volumetric_quadrature)
+        isochoric = yeoh_energy(F, self.material.coefficients) * dx
+        bulk = self.material.bulk
+        if self.p is None:
+            return isochoric + volumetric_energy(F, self._constant(bulk)) * dx_volumetric
+        inverse_bulk = self._constant(0.0 if np.isinf(bulk) else 1.0 / bulk)
+        return isochoric + mixed_volumetric_energy(F, self.p, inverse_bulk) * dx_volumetric
+
+    @cached_property
+    def tangent_correction(self) -> Any | None:
+        """Bilinear form that makes a displacement form's tangent robust; None for mixed forms."""
+        if self.p is not None:
+            return None
+        space = self.function.function_space
+        v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
+        dx = self.volume_measure(self.element.volumetric_quadrature)
+        bulk = self._constant(self.material.bulk)
+        return mixed_point_tangent_correction(
+            self.u, self._last, v, w, bulk, self._linearised
+        ) * dx
+
+    def before_tangent(self, iteration: int) -> None:
+        """Set from which state the tangent's pressure comes; call before each assembly.
+
+        The first tangent of a solve keeps the pressure of the state that `mark_converged` saw.
+        """
+        if self.p is None:
+            self._linearised.value = 0.0 if iteration == 0 else 1.0
+            self._last.x.array[:] = self._converged if iteration == 0 else self._present
+            self._present = self.function.x.array.copy()
+
+    def mark_converged(self) -> None:
+        """Take the present displacement as the one whose pressure the next first tangent keeps."""
+        if self.p is None:
+            self._converged = self.function.x.array.copy()
+
+    def chamber_volume(self, face: str) -> Any:
+        """Return the deformed volume in mm^3 enclosed by a chamber's faces, a UFL functional."""
+        return enclosed_volume(self.u, self.X, self.normal) * self.face_measure(face)
+
+    # -- measures -----------------------------------------------------------------------------
+
+    def volume_measure(self, degree: int | None = None) -> Any:
+        """Return dx with a quadrature degree."""
+        degree = degree or self.element.quadrature
+        return ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": degree})
+
+    def face_measure(self, face: str) -> Any:
+        """Return ds on a named face; a face without facets integrates to zero."""
+        measure = ufl.Measure("ds", self.mesh, subdomain_data=self.face_tags,
+                              metadata={"quadrature_degree": self.element.quadrature})
+        return measure(self.face_numbers[face])
+
+    def mean_normal(self, face: str) -> np.ndarray:
+        """Return the area vector in mm^2 of a deformed face, integral of ``cof(F) N``."""
+        return np.array([compat.assemble_scalar(self.comm, f) for f in self._probes(face)[:3]])
+
+    def mean_displacement(self, face: str) -> np.ndarray:
+        """Return the mean displacement in mm of a face."""
+        *sums, area = (compat.assemble_scalar(self.comm, f) for f in self._probes(face)[3:])
+        return np.array(sums) / area
+
+    def displacement(self) -> fem.Function:
+        """Return the displacement as a function of its own, for pictures and files."""
+        if self.p is None:
+            return self.function
+        if not hasattr(self, "_drawn"):
+            space, self._drawn_dofs = self.function.function_space.sub(0).collapse()
+            self._drawn = fem.Function(space, name="elastomer")
+        self._drawn.x.array[:] = self.function.x.array[self._drawn_dofs]
+        return self._drawn
+
+    def n_pressures(self) -> int:
+        """Global number of pressure unknowns."""
+        if self.p is None:
+            return 0
+        dofmap = self.function.function_space.sub(1).collapse()[0].dofmap
+        return dofmap.index_map.size_global * dofmap.index_map_bs
+
+    # -- internals ----------------------------------------------------------------------------
+
+    def _constant(self, value: float) -> fem.Constant:
+        return fem.Constant(self.mesh, compat.scalar_type(value))
+
+    def _probes(self, face: str) -> list[Any]:
+        if not hasattr(self, "_compiled_probes"):
+            self._compiled_probes: dict[str, list[Any]] = {}
+        if face not in self._compiled_probes:
+            ds = self.face_measure(face)
+            area_vector = cofactor(deformation_gradient(self.u)) * self.normal
+            integrands = [*(area_vector[i] for i in range(3)), *(self.u[i] for i in range(3))]
+            one = self._constant(1.0)
+            self._compiled_probes[face] = [compat.form(f * ds) for f in (*integrands, one)]
+        return self._compiled_probes[face]
+
+    def _tag_faces(self) -> None:
+        """Tag local facets from pairs (input cell, facet of the cell)."""
+        self.face_numbers = {name: i + 1 for i, name in enumerate(self.grid.facets)}
+        local = {int(c): i for i, c in enumerate(compat.original_cells(self.mesh))}
+        cell_facets = compat.cell_facets(self.mesh)
+        facets, values = [], []
+        for name, pairs in self.grid.facets.items():
+            for cell, facet in pairs:
+                if int(cell) in local:
+                    facets.append(cell_facets[local[int(cell)], facet])
+                    values.append(self.face_numbers[name])
+        self.face_tags = compat.facet_tags(self.mesh, np.array(facets), np.array(values))
+
+    def face_facets(self, face: str) -> np.ndarray:
+        """Return the local facets of a named face."""
+        tags = self.face_tags
+        return tags.indices[tags.values == self.face_numbers[face]]
+
+    def _constrained(
+        self, space: Any, clamped: Sequence[str], symmetry: dict[str, int]
+    ) -> np.ndarray:
+        displacement = space if self.element.pressure is None else space.sub(0)
+        found = []
+        pairs = [(face, axis) for face in clamped for axis in range(3)] + list(symmetry.items())
+        for face, axis in pairs:
+            part = displacement.sub(axis)
+            collapsed, _ = part.collapse()
+            dofs = fem.locate_dofs_topological(
+                (part, collapsed), self.mesh.topology.dim - 1, self.face_facets(face)
+            )
+            found.append(dofs[0])
+        return np.unique(np.concatenate(found)) if found else np.empty(0, dtype=np.int32)

@@ -1,0 +1,158 @@
+"""Cholesky (LDL^T) factors that know their inertia, and a Newton step that uses it.
+
+Where thin skin buckles, the tangent K of a displacement form has negative eigenvalues away from
+equilibrium and a plain Newton step runs towards a saddle. Here (K + a M) d = -F is solved with a
+lumped mass M of the thin part; ``a`` rises until the factor has no surplus negative pivots and the
+step is short, and falls to zero as the residual does. The residual is untouched: what converges is
+an equilibrium of the unregularised problem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from petsc4py import PETSc
+
+
+@dataclass(frozen=True)
+class Regularisation:
+    """When and how much to regularise.
+
+    Attributes
+    ----------
+    mass : (n_owned,) array
+        Lumped mass in mm^3 of each owned unknown; zero where nothing is added.
+    longest_step
+        Largest change in mm of a displacement in one iteration.
+    displacements : (n_owned,) bool array
+        Which unknowns are displacements.
+    """
+
+    mass: np.ndarray
+    displacements: np.ndarray
+    longest_step: float = 2.0
+
+
+class InertiaCholesky:
+    """A PETSc Python preconditioner: MUMPS LDL^T of the tangent, regularised where needed.
+
+    Parameters
+    ----------
+    regularisation
+        None: factorise as it is and count the negative pivots.
+    expected_negative
+        Number of negative pivots of a stable state: the pressures of a mixed form.
+    prefix
+        Prefix of the PETSc options of the inner factorisation.
+    """
+
+    raises = 10.0
+    largest_exponent = 9
+
+    def __init__(
+        self, regularisation: Regularisation | None, expected_negative: int, prefix: str
+    ) -> None:
+        self.regularisation = regularisation
+        self.expected_negative = expected_negative
+        self.amount = 0.0
+        self.negative_pivots = 0
+        self.factorisations = 0
+        self._prefix = prefix
+        self._inner: PETSc.PC | None = None
+
+    # -- called by PETSc ----------------------------------------------------------------------
+
+    def setUp(self, pc: PETSc.PC) -> None:
+        """Factorise the tangent, with more mass until its inertia is that of a minimum."""
+        _, self._matrix = pc.getOperators()
+        self._diagonal = self._matrix.getDiagonal()
+        self._factorise()
+        self._raise_while(lambda: self.surplus > 0)
+
+    def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Solve; shorten the step by more mass while it is too long."""
+        assert self._inner is not None
+        self._inner.apply(b, y)
+        if self.regularisation is None:
+            return
+
+        def too_long() -> bool:
+            self._inner.apply(b, y)
+            return self._length(y) > self.regularisation.longest_step
+
+        if self._length(y) > self.regularisation.longest_step:
+            self._raise_while(too_long)
+
+    def destroy(self, pc: PETSc.PC | None = None) -> None:
+        """Free the factors."""
+        if self._inner is not None:
+            self._inner.destroy()
+            self._inner = None
+
+    # -- the rule -----------------------------------------------------------------------------
+
+    @property
+    def surplus(self) -> int:
+        """Negative pivots beyond those of a stable state."""
+        return self.negative_pivots - self.expected_negative
+
+    def relax(self, factor: float) -> None:
+        """Divide the amount of mass after an iteration; below a thousandth of its unit: none."""
+        self.amount /= factor
+        if self.regularisation is not None and self.amount < 1e-3 * self._unit():
+            self.amount = 0.0
+
+    def _raise_while(self, bad) -> None:
+        if self.regularisation is None:
+            return
+        unit = self._unit()
+        while bad() and self.amount < unit * self.raises**self.largest_exponent:
+            self.amount = max(self.amount * self.raises, unit)
+            self._factorise()
+
+    def _unit(self) -> float:
+        """Return the mass factor that adds a ten-thousandth of the mean stiffness."""
+        if not hasattr(self, "_unit_value"):
+            mass = self.regularisation.mass
+            comm = self._matrix.comm.tompi4py()
+            diagonal = np.abs(self._diagonal.getArray(readonly=True))[mass > 0]
+            self._unit_value = 1e-4 * comm.allreduce(diagonal.sum()) / comm.allreduce(mass.sum())
+        return self._unit_value
+
+    def _length(self, y: PETSc.Vec) -> float:
+        values = np.abs(y.getArray(readonly=True)[self.regularisation.displacements])
+        longest = float(values.max()) if len(values) else 0.0
+        longest = longest if np.isfinite(longest) else np.inf
+        return self._matrix.comm.tompi4py().allreduce(longest, op=_max())
+
+    def _factorise(self) -> None:
+        if self._inner is None:
+            self._inner = PETSc.PC().create(self._matrix.comm)
+            self._inner.setOptionsPrefix(self._prefix)
+            self._inner.setType("cholesky")
+            self._inner.setFactorSolverType("mumps")
+            self._inner.setOperators(self._matrix)
+            self._inner.setFactorSetUpSolverType()
+            # A ScaLAPACK root would hide its pivots from the count.
+            self._inner.getFactorMatrix().setMumpsIcntl(13, 1)
+            self._inner.setFromOptions()
+        if self.amount > 0.0:
+            diagonal = self._diagonal.copy()
+            diagonal.array += self.amount * self.regularisation.mass
+            self._matrix.setDiagonal(diagonal)
+            self._matrix.assemble()
+            self._changed = True
+        elif getattr(self, "_changed", False):
+            self._matrix.setDiagonal(self._diagonal)
+            self._matrix.assemble()
+        self._inner.setOperators(self._matrix)
+        self._inner.setUp()
+        self.factorisations += 1
+        self.negative_pivots = self._inner.getFactorMatrix().getMumpsInfog(12)
+
+
+def _max():
+    from mpi4py import MPI
+
+    return MPI.MAX

@@ -1,0 +1,161 @@
+"""Newton's method by PETSc SNES on an equilibrium system."""
+
+from __future__ import annotations
+
+import weakref
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from petsc4py import PETSc
+
+from .inertia import InertiaCholesky, Regularisation
+from .system import EquilibriumSystem
+
+REASONS = {
+    PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "an element turned inside out (J <= 0)",
+    PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "an element turned inside out (J <= 0)",
+    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: "the tangent could not be factorised",
+    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: "Newton used up its iterations",
+    PETSc.SNES.ConvergedReason.DIVERGED_DTOL: "the residual grew without bound",
+    PETSc.SNES.ConvergedReason.DIVERGED_LINE_SEARCH: "the line search failed",
+}
+
+
+@dataclass(frozen=True)
+class NewtonResult:
+    """What one solve did.
+
+    Attributes
+    ----------
+    converged
+        Whether the residual fell below its tolerance.
+    reason
+        In words why it stopped.
+    iterations
+        Number of Newton iterations.
+    residual
+        Norm of the last residual in N.
+    negative_pivots
+        Negative pivots of the last factor beyond those of the pressure unknowns.
+    """
+
+    converged: bool
+    reason: str
+    iterations: int
+    residual: float
+    negative_pivots: int
+
+
+class Newton:
+    """SNES on one reused matrix with MUMPS LDL^T; every option is open under ``prefix``.
+
+    Parameters
+    ----------
+    system
+        The equations.
+    prefix
+        PETSc options prefix, e.g. ``"wing_"``; the factorisation's is ``"wing_factor_"``.
+    regularisation, expected_negative
+        See `InertiaCholesky`.
+    max_iterations
+        Newton iterations after which a load step is given up.
+    before_tangent
+        Called before each tangent with the number of the iteration in the solve.
+    """
+
+    def __init__(
+        self,
+        system: EquilibriumSystem,
+        prefix: str,
+        regularisation: Regularisation | None = None,
+        expected_negative: int = 0,
+        max_iterations: int = 25,
+        relative_tolerance: float = 1e-9,
+        before_tangent: Callable[[int], None] | None = None,
+    ) -> None:
+        self.system = system
+        self.relative_tolerance = relative_tolerance
+        self._before_tangent = before_tangent
+        self._tolerance = 0.0
+        self._b = system.x.duplicate()
+        self._x = system.x.duplicate()
+        self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
+        self._snes = self._create(prefix, max_iterations)
+        # Factors must go before PETSc is finalised, not after.
+        weakref.finalize(self, _destroy, self._snes, self.factor)
+
+    def _create(self, prefix: str, max_iterations: int) -> PETSc.SNES:
+        snes = PETSc.SNES().create(self.system.comm)
+        snes.setOptionsPrefix(prefix)
+        snes.setType("newtonls")
+        # Others stall on displacement forms and cost four times the iterations on mixed ones.
+        options, line_search = PETSc.Options(prefix), "snes_linesearch_type"
+        if not options.hasName(line_search):
+            options.setValue(line_search, "basic")
+        # PETSc's references to callbacks are invisible to Python's collector: keep them weak.
+        me = weakref.proxy(self)
+        snes.setFunction(lambda *a: me._function(*a), self._b)
+        snes.setJacobian(lambda *a: me._jacobian(*a), self.system.matrix)
+        snes.setTolerances(max_it=max_iterations)
+        snes.setConvergenceTest(lambda *a: me._test(*a))
+        ksp = snes.getKSP()
+        ksp.setType("preonly")
+        ksp.getPC().setType("python")
+        ksp.getPC().setPythonContext(self.factor)
+        snes.setFromOptions()
+        return snes
+
+    def solve(self, reference_force: float) -> NewtonResult:
+        """Solve from the functions' present values; on failure they hold the last iterate.
+
+        Parameters
+        ----------
+        reference_force
+            Norm in N of the loads; the tolerance is relative to it.
+        """
+        self._tolerance = self.relative_tolerance * max(reference_force, 1e-6)
+        self._smallest = np.inf
+        self.system.push(self._x)
+        self._snes.solve(None, self._x)
+        self.system.pull(self._x)
+        reason = self._snes.getConvergedReason()
+        return NewtonResult(
+            converged=reason > 0,
+            reason="converged" if reason > 0 else REASONS.get(reason, f"SNES reason {reason}"),
+            iterations=self._snes.getIterationNumber(),
+            residual=self._snes.getFunctionNorm(),
+            negative_pivots=self.factor.surplus,
+        )
+
+    # -- called by PETSc ----------------------------------------------------------------------
+
+    def _function(self, snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        self.system.residual(x, out)
+
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        self.system.pull(x)
+        if self._before_tangent is not None:
+            self._before_tangent(snes.getIterationNumber())
+        self.system.tangent()
+
+    def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
+        reason = PETSc.SNES.ConvergedReason
+        x_norm, step, residual = norms
+        if not np.isfinite(residual):
+            return reason.DIVERGED_FNORM_NAN
+        if residual <= self._tolerance:
+            return reason.CONVERGED_FNORM_ABS
+        if iteration > 0:
+            unregularised = self.factor.amount == 0.0
+            # Roundoff of stiff parts bounds the residual from below; then the step is what counts.
+            if unregularised and step <= 1e-11 * (x_norm + 1.0):
+                return reason.CONVERGED_SNORM_RELATIVE
+            self.factor.relax(1e3 if residual < 0.1 * self._smallest else 5.0)
+        self._smallest = min(self._smallest, residual)
+        return reason.ITERATING
+
+
+def _destroy(snes: PETSc.SNES, factor: InertiaCholesky) -> None:
+    factor.destroy()
+    snes.destroy()

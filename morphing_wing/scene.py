@@ -1,0 +1,234 @@
+"""What all scenes share: loads by name, the equations, stepping, and the path that comes out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import compat
+from .errors import InputError, require
+from .newton import Newton, NewtonResult
+from .path import Path, State
+from .stepping import Stepping, follow
+from .system import EquilibriumSystem
+
+UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm"}
+
+
+class Scene:
+    """A structure with named loads that can be led along a path of equilibria.
+
+    A subclass builds ``system``, returns its solver from ``_newton``, and says in ``_functional`` which energies the
+    loads in use require, in ``_measures`` what is measured, in ``_conjugates`` the displacement
+    that each load works on.
+
+    Attributes
+    ----------
+    name, fidelity, comm
+        What, how finely, and on which ranks.
+    multiplicity
+        How often the modelled part stands in the whole: 2 for a half model.
+    """
+
+    name = "scene"
+    primary_load = "pressure_MPa"
+    load_names: tuple[str, ...] = ()
+    stepping = Stepping()
+    multiplicity = 1
+
+    system: EquilibriumSystem
+    newton: Newton
+
+    def __init__(self, fidelity: str, comm: MPI.Comm | None) -> None:
+        self.fidelity = fidelity
+        self.comm = comm or MPI.COMM_WORLD
+        self.loads: dict[str, Any] = {}
+        self._in_use: tuple[str, ...] | None = None
+        self._load = dict.fromkeys(self.load_names, 0.0)
+        self._work = 0.0
+        self._largest_force = 0.0
+        self._last_conjugates: dict[str, float] = {}
+
+    # -- for users ----------------------------------------------------------------------------
+
+    @property
+    def dofs(self) -> int:
+        """Global number of unknowns."""
+        return self.system.size
+
+    def follow(
+        self,
+        loads: Mapping[str, float | Sequence[float] | None],
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[[Mapping[str, float], str], None] | None = None,
+    ) -> Path:
+        """Lead the scene from where it is through wanted loads.
+
+        Parameters
+        ----------
+        loads
+            Of each load by name a number, a sequence of them, or None for none; broadcast together.
+        on_step, on_cut
+            Called on every rank after each converged step, and after each step that was cut.
+        """
+        targets = _targets(self.load_names, loads)
+        clock = time.perf_counter()
+        in_use = tuple(n for n in self.load_names
+                       if self._load[n] != 0.0 or any(t[n] != 0.0 for t in targets))
+        if in_use != self._in_use:
+            self._use(in_use)
+        states, converged, reason = follow(
+            self, self._load, targets, self.stepping, on_step, on_cut
+        )
+        if states:
+            self._load = dict(states[-1].load)
+        return Path(states, self, converged, reason, time.perf_counter() - clock)
+
+    # -- for the stepping ---------------------------------------------------------------------
+
+    def set_load(self, load: Mapping[str, float]) -> None:
+        """Set all loads."""
+        for name, constants in self.loads.items():
+            for constant in constants:
+                constant.value = load[name]
+
+    def solve(self) -> NewtonResult:
+        """Find the equilibrium of the present loads from the present state."""
+        self._largest_force = max(self._largest_force, self._load_force())
+        return self.newton.solve(self._largest_force)
+
+    def unknowns(self) -> list[np.ndarray]:
+        """Return copies of the rank-local values of all functions."""
+        return [block.function.x.array.copy() for block in self.system.blocks]
+
+    def set_unknowns(self, values: Sequence[np.ndarray]) -> None:
+        """Set the rank-local values of all functions."""
+        for block, array in zip(self.system.blocks, values, strict=True):
+            block.function.x.array[:] = array
+
+    def accept(self) -> None:
+        """Take the present state as converged."""
+
+    def state(
+        self, load: Mapping[str, float], result: NewtonResult, seconds: float, requested: bool
+    ) -> State:
+        """Measure the present state."""
+        conjugates = self._conjugates()
+        for name, value in conjugates.items():
+            before = self._last_conjugates.get(name, value)
+            mean = 0.5 * (load[name] + self._last_load[name])
+            self._work += self.multiplicity * mean * (value - before)
+        self._last_conjugates, self._last_load = conjugates, dict(load)
+        return State(
+            load=dict(load),
+            measures=self._measures(),
+            newton_iterations=result.iterations,
+            energy_Nmm=self.multiplicity * sum(self._stored_energies()),
+            external_work_Nmm=self._work,
+            negative_pivots=result.negative_pivots,
+            step_seconds=seconds,
+            requested=requested,
+            fields={b.function.name: b.function.x.array.copy() for b in self.system.blocks},
+        )
+
+    def show(self, state: State) -> None:
+        """Copy a state's fields into the functions."""
+        for block in self.system.blocks:
+            block.function.x.array[:] = state.fields[block.function.name]
+
+    # -- for subclasses -----------------------------------------------------------------------
+
+    def _newton(self) -> Newton:
+        """Return the solver of this scene."""
+        raise NotImplementedError
+
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+        """Return energies (one UFL functional a mesh) and tangent corrections (one a block).
+
+        Sets ``self.loads``: of each load in use the constants that carry it.
+        """
+        raise NotImplementedError
+
+    def _stored(self) -> list[Any]:
+        """Return the stored energies, UFL functionals without the loads' potentials."""
+        raise NotImplementedError
+
+    def _measures(self) -> dict[str, float]:
+        """Return what is measured in the present state."""
+        raise NotImplementedError
+
+    def _conjugates(self) -> dict[str, float]:
+        """Return, of each load in use, the displacement on which it does work."""
+        raise NotImplementedError
+
+    # -- internals ----------------------------------------------------------------------------
+
+    def _use(self, in_use: tuple[str, ...]) -> None:
+        energies, corrections = self._functional(in_use)
+        self.system.set_energies(energies, corrections)
+        if not hasattr(self, "newton"):
+            self.newton = self._newton()
+        self._stored_forms = [compat.form(energy) for energy in self._stored()]
+        self._in_use = in_use
+        self.set_load(self._load)
+        self._last_load = dict(self._load)
+        self._last_conjugates = self._conjugates()
+
+    def _stored_energies(self) -> list[float]:
+        return [compat.assemble_scalar(self.comm, form) for form in self._stored_forms]
+
+    def _load_force(self) -> float:
+        """Return the norm in N of what the loads contribute to the residual."""
+        system = self.system
+        x, with_loads, without = (system.x.duplicate() for _ in range(3))
+        system.push(x)
+        system.residual(x, with_loads)
+        values = {name: [float(c.value) for c in cs] for name, cs in self.loads.items()}
+        for constants in self.loads.values():
+            for constant in constants:
+                constant.value = 0.0
+        system.residual(x, without)
+        for name, constants in self.loads.items():
+            for constant, value in zip(constants, values[name], strict=True):
+                constant.value = value
+        with_loads.axpy(-1.0, without)
+        force = with_loads.norm()
+        return force if np.isfinite(force) else 0.0
+
+
+def choose_fidelity(name: str, allowed: Sequence[str]) -> str:
+    """Return a fidelity's name, or refuse it."""
+    if name not in allowed:
+        raise InputError(f"fidelity = {name!r}: must be one of {', '.join(allowed)}")
+    return name
+
+
+def _targets(
+    names: Sequence[str], loads: Mapping[str, float | Sequence[float] | None]
+) -> list[dict[str, float]]:
+    """Return one dict of all loads for each wanted point."""
+    arrays = []
+    for name in names:
+        given = loads.get(name)
+        word, unit = name.rsplit("_", 1)
+        try:
+            array = np.atleast_1d(np.asarray(0.0 if given is None else given, dtype=float))
+        except (TypeError, ValueError):
+            raise InputError(
+                f"{word} = {given!r}: must be a number or a sequence of numbers in {UNITS[unit]}"
+            ) from None
+        ok = array.ndim == 1 and array.size > 0 and bool(np.isfinite(array).all())
+        require(ok, word, given, UNITS[unit], "finite, a number or a sequence of numbers")
+        arrays.append(array)
+    try:
+        table = np.broadcast_arrays(*arrays)
+    except ValueError:
+        sizes = ", ".join(f"{n.rsplit('_', 1)[0]} {len(a)}"
+                          for n, a in zip(names, arrays, strict=True))
+        raise InputError(f"loads have lengths {sizes}: must be equal, or 1") from None
+    rows = np.stack(table, axis=1)
+    return [dict(zip(names, map(float, row), strict=True)) for row in rows]

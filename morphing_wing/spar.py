@@ -1,0 +1,178 @@
+"""The cuboid pneumatic spar as a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from dolfinx import fem
+from mpi4py import MPI
+
+from . import compat
+from .angles import deflection_line, rotation_about_x
+from .elastomer import Elastomer
+from .elements import element as element_named
+from .geometry.spar import SparGeometry, SparMeshing
+from .materials import DRAGON_SKIN_30, Yeoh
+from .newton import Newton
+from .path import Path, State
+from .scene import Scene, choose_fidelity
+from .system import EquilibriumSystem
+
+ROWS = {"upper_MPa": "upper_chambers", "lower_MPa": "lower_chambers"}
+
+
+@dataclass(frozen=True)
+class SparFidelity:
+    """One rung of the spar's ladder: a mesh and an element."""
+
+    meshing: SparMeshing
+    element: str
+
+
+FIDELITIES = {
+    "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0"),
+    "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc"),
+}
+
+
+class Spar(Scene):
+    """A cantilevered spar of two rows of sealed chambers.
+
+    Parameters
+    ----------
+    geometry
+        Dimensions.
+    material
+        Yeoh elastomer.
+    fidelity
+        "draft" (Q1/P0) or "standard" (Q2/P1disc); both graded at the chamber corners.
+    comm
+        Communicator; all ranks of MPI by default.
+    half
+        Model one half, by symmetry at mid-width (every load of a spar is symmetric).
+    meshing, element
+        Replace those of the fidelity.
+    options_prefix
+        Prefix of this scene's PETSc options.
+
+    Examples
+    --------
+    >>> spar = Spar(SparGeometry.validation(), DRAGON_SKIN_30)      # doctest: +SKIP
+    >>> spar.inflate(upper=[0.01, 0.02]).table()                    # doctest: +SKIP
+    """
+
+    name = "spar"
+    load_names = ("upper_MPa", "lower_MPa")
+
+    def __init__(
+        self,
+        geometry: SparGeometry,
+        material: Yeoh = DRAGON_SKIN_30,
+        fidelity: str = "standard",
+        comm: MPI.Comm | None = None,
+        half: bool = True,
+        meshing: SparMeshing | None = None,
+        element: str | None = None,
+        options_prefix: str = "spar_",
+    ) -> None:
+        rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
+        super().__init__(fidelity, comm)
+        self.geometry, self.material = geometry, material
+        self.multiplicity = 2 if half else 1
+        self.body = Elastomer(
+            self.comm,
+            geometry.mesh(meshing or rung.meshing, half),
+            material,
+            element_named(element or rung.element),
+            clamped=("root",),
+            symmetry={"symmetry": 0} if half else None,
+        )
+        self.body.mark_converged()
+        self.system = EquilibriumSystem(self.comm, [self.body.block])
+        self._options_prefix = options_prefix
+
+    def inflate(
+        self,
+        upper: float | Sequence[float] | None = None,
+        lower: float | Sequence[float] | None = None,
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[..., None] | None = None,
+    ) -> Path:
+        """Inflate the chambers of the upper and the lower row.
+
+        Parameters
+        ----------
+        upper, lower
+            Pressures in MPa: a number, a sequence of them, or None (no pressure, and no cost).
+        on_step
+            Called on every rank after each converged step.
+
+        Returns
+        -------
+        Path
+            All converged steps; ``path.converged`` tells whether the last pressure was reached.
+
+        Raises
+        ------
+        InputError
+            If a pressure is not a finite number.
+        """
+        return self.follow({"upper_MPa": upper, "lower_MPa": lower}, on_step, on_cut)
+
+    # -- for the pictures ---------------------------------------------------------------------
+
+    @property
+    def functions(self) -> dict[str, fem.Function]:
+        """Displacement in mm by name."""
+        return {"elastomer": self.body.displacement()}
+
+    def description(self) -> dict[str, Any]:
+        """Return all parameters, for `summary.json`."""
+        return {
+            "geometry": asdict(self.geometry),
+            "material": asdict(self.material),
+            "element": self.body.element.name,
+            "half_model": self.multiplicity == 2,
+        }
+
+    # -- what the scene is made of ------------------------------------------------------------
+
+    def accept(self) -> None:
+        """Keep the pressure of the present state for the next first tangent."""
+        self.body.mark_converged()
+
+    def _newton(self) -> Newton:
+        return Newton(
+            self.system,
+            self._options_prefix,
+            expected_negative=self.body.n_pressures(),
+            before_tangent=self.body.before_tangent,
+        )
+
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+        energy = self.body.energy
+        self.loads, self._volumes = {}, {}
+        for name in in_use:
+            pressure = fem.Constant(self.body.mesh, compat.scalar_type(0.0))
+            volume = self.body.chamber_volume(ROWS[name])
+            energy = energy - pressure * volume
+            self.loads[name] = [pressure]
+            self._volumes[name] = compat.form(volume)
+        return [energy], [self.body.tangent_correction]
+
+    def _stored(self) -> list[Any]:
+        return [self.body.energy]
+
+    def _conjugates(self) -> dict[str, float]:
+        return {name: compat.assemble_scalar(self.comm, volume)
+                for name, volume in self._volumes.items()}
+
+    def _measures(self) -> dict[str, float]:
+        tip = self.body.mean_displacement("tip")
+        return {
+            "span_angle_deg": rotation_about_x(self.body.mean_normal("tip")),
+            "span_line_deg": deflection_line(tip, np.array([0.0, 0.0, self.geometry.length])),
+        }

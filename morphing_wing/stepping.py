@@ -1,0 +1,165 @@
+"""Load stepping that adapts: from one wanted load to the next, in as few steps as Newton allows."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from .newton import NewtonResult
+from .path import State
+
+Load = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Stepping:
+    """How load steps are chosen.
+
+    Attributes
+    ----------
+    smallest
+        Smallest step, as a part of the way between two wanted loads, before giving up.
+    easy
+        Up to this number of Newton iterations the next step is twice as long.
+    largest
+        Largest change of each named load in one step; loads without an entry are free.
+    predict
+        Start each step on the secant through the last two states.
+    """
+
+    smallest: float = 1.0 / 512
+    easy: int = 8
+    largest: Mapping[str, float] | None = None
+    predict: bool = False
+
+
+class Steppable(Protocol):
+    """What a scene offers to be led along a path."""
+
+    def set_load(self, load: Load) -> None:
+        """Set all loads."""
+
+    def solve(self) -> NewtonResult:
+        """Find the equilibrium from the present state."""
+
+    def unknowns(self) -> list[np.ndarray]:
+        """Return copies of the rank-local values of all functions."""
+
+    def set_unknowns(self, values: Sequence[np.ndarray]) -> None:
+        """Set the rank-local values of all functions."""
+
+    def accept(self) -> None:
+        """Take the present state as converged."""
+
+    def state(self, load: Load, result: NewtonResult, seconds: float, requested: bool) -> State:
+        """Measure the present state."""
+
+
+def follow(
+    scene: Steppable,
+    start: Load,
+    targets: Sequence[Load],
+    stepping: Stepping,
+    on_step: Callable[[State], None] | None = None,
+    on_cut: Callable[[Load, str], None] | None = None,
+) -> tuple[list[State], bool, str]:
+    """Lead a scene from its present equilibrium at ``start`` through all targets.
+
+    Returns
+    -------
+    states
+        Every converged state, those between two targets too.
+    converged
+        Whether the last target was reached.
+    reason
+        Why and where it ended.
+    """
+    states: list[State] = []
+    here = dict(start)
+    secant = _Secant(here, scene.unknowns())
+    for target in targets:
+        way = {name: target[name] - here[name] for name in target}
+        begin, done, step = dict(here), 0.0, _longest(way, stepping)
+        limit = step
+        while done < 1.0:
+            step = min(step, 1.0 - done)
+            load = dict(target) if done + step > 1.0 - 1e-9 else {
+                name: begin[name] + (done + step) * way[name] for name in way
+            }
+            clock = time.perf_counter()
+            last = scene.unknowns()
+            if stepping.predict:
+                scene.set_unknowns(secant.predict(load))
+            scene.set_load(load)
+            result = scene.solve()
+            if not result.converged:
+                scene.set_unknowns(last)
+                scene.set_load(here)
+                if step / 2 < stepping.smallest:
+                    return states, False, f"stopped after {_words(here)}: {result.reason}"
+                if on_cut is not None:
+                    on_cut(load, result.reason)
+                step /= 2
+                continue
+            scene.accept()
+            done += step
+            here = load
+            secant.add(here, scene.unknowns())
+            requested = done > 1.0 - 1e-9
+            done = 1.0 if requested else done
+            state = scene.state(load, result, time.perf_counter() - clock, requested)
+            states.append(state)
+            if on_step is not None:
+                on_step(state)
+            if result.iterations <= stepping.easy:
+                step = min(2 * step, limit)
+    return states, True, "the last load was reached"
+
+
+class _Secant:
+    """Extrapolation through the last two states, where the load goes on in the same direction."""
+
+    def __init__(self, load: Load, values: list[np.ndarray]) -> None:
+        self._load, self._values = dict(load), values
+        self._slope: list[np.ndarray] | None = None
+        self._step: np.ndarray | None = None
+
+    def add(self, load: Load, values: list[np.ndarray]) -> None:
+        step = _difference(load, self._load)
+        if np.linalg.norm(step) > 0.0:
+            self._step = step
+            self._slope = [new - old for new, old in zip(values, self._values, strict=True)]
+        self._load, self._values = dict(load), values
+
+    def predict(self, load: Load) -> list[np.ndarray]:
+        if self._slope is None or self._step is None:
+            return self._values
+        step = _difference(load, self._load)
+        ratio = step @ self._step / (self._step @ self._step)
+        aside = np.linalg.norm(step - ratio * self._step)
+        if ratio < 0.0 or aside > 1e-6 * np.linalg.norm(step):
+            return self._values
+        return [v + ratio * s for v, s in zip(self._values, self._slope, strict=True)]
+
+
+def _difference(a: Load, b: Load) -> np.ndarray:
+    return np.array([a[name] - b[name] for name in sorted(a)])
+
+
+def _longest(way: Load, stepping: Stepping) -> float:
+    limits = stepping.largest or {}
+    parts = [limits[name] / abs(change) for name, change in way.items()
+             if name in limits and change != 0.0]
+    return min([1.0, *parts])
+
+
+def _words(load: Load) -> str:
+    names = (name.rsplit("_", 1) for name in load)
+    return ", ".join(
+        f"{name} = {value:.6g} {unit}" for (name, unit), value in zip(names, load.values(),
+                                                                      strict=True)
+    )

@@ -1,0 +1,363 @@
+"""One set of equations from several finite-element functions and their energies.
+
+Every unknown has one number in one PETSc vector. A block maps its function's rank-local dofs to
+those numbers: one to one for an independent field, many to one for a *shared* block, whose cell
+dofs all stand for the same few unknowns (the six of a glued rib end, say). Energies then couple
+fields by plain UFL: residual and tangent are their derivatives, and the map adds them up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import ufl
+from mpi4py import MPI
+from petsc4py import PETSc
+from scipy.sparse import coo_matrix
+
+from . import compat
+
+
+@dataclass
+class Block:
+    """A function and the global numbers of its rank-local dofs.
+
+    Attributes
+    ----------
+    function
+        The finite-element function (displacement, mixed, beam, ...).
+    constrained
+        Local dofs (flattened) that keep the value that the function holds.
+    shared
+        For a shared block: the number in ``of`` of the dof that each local dof stands for is set
+        by ``EquilibriumSystem``; -1 where a dof stands for nothing.
+    """
+
+    function: Any
+    constrained: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    shared: np.ndarray | None = None
+    numbers: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64), init=False)
+
+    @property
+    def block_size(self) -> int:
+        """Number of components at a dof point."""
+        return self.function.function_space.dofmap.index_map_bs
+
+    @property
+    def n_owned(self) -> int:
+        """Number of dofs owned by this rank."""
+        return self.function.function_space.dofmap.index_map.size_local * self.block_size
+
+
+@dataclass(frozen=True)
+class SharedUnknowns:
+    """How the cells of a shared block stand for dofs of an independent block.
+
+    Attributes
+    ----------
+    of
+        Index of the independent block.
+    masters
+        For each group, the local dofs of that block on the rank that owns them, else empty;
+        list of (k,) arrays.
+    cells
+        For each group the local cells whose k dofs stand for the group's masters.
+    """
+
+    of: int
+    masters: Sequence[np.ndarray]
+    cells: Sequence[np.ndarray]
+
+
+class EquilibriumSystem:
+    """Residual and tangent of a sum of energies, in one PETSc vector and one PETSc matrix.
+
+    Parameters
+    ----------
+    comm
+        Communicator of all meshes.
+    blocks
+        Independent blocks first, then shared ones.
+    sharing
+        For each shared block, in order, what it stands for.
+    """
+
+    def __init__(
+        self, comm: MPI.Comm, blocks: Sequence[Block], sharing: Sequence[SharedUnknowns] = ()
+    ) -> None:
+        self.comm = comm
+        self.blocks = list(blocks)
+        self._n_independent = len(blocks) - len(sharing)
+        self._number_independent()
+        for block, shared in zip(self.blocks[self._n_independent :], sharing, strict=True):
+            self._number_shared(block, shared)
+        self.n_owned = sum(block.n_owned for block in self.blocks[: self._n_independent])
+        self.x = PETSc.Vec().createMPI((self.n_owned, None), comm=comm)
+        self._lay_out()
+        self._build_scatter()
+        self._matrix: PETSc.Mat | None = None
+        self._residuals: list[Any] = []
+        self._tangents: list[tuple[int, int, Any]] = []
+        self._energies: list[Any] = []
+
+    # -- the functional -----------------------------------------------------------------------
+
+    def set_energies(
+        self, energies: Sequence[Any], tangent_corrections: Sequence[Any | None] | None = None
+    ) -> None:
+        """Set the functional to a sum of energies, one UFL functional a mesh.
+
+        ``tangent_corrections[i]`` is a bilinear form of block i added to its tangent, or None.
+        """
+        self._residuals, self._tangents = [], []
+        self._energies = [compat.form(energy) for energy in energies]
+        for i, block in enumerate(self.blocks):
+            residual = _sum(_derivative(energy, block.function, 0) for energy in energies)
+            if residual is None:
+                continue
+            self._residuals.append((i, compat.form(residual)))
+            for j, other in enumerate(self.blocks):
+                tangent = _sum(
+                    _derivative(_derivative(energy, block.function, 0), other.function, 1)
+                    for energy in energies
+                )
+                if i == j and tangent_corrections is not None and tangent_corrections[i]:
+                    tangent = tangent + tangent_corrections[i]
+                if tangent is not None:
+                    self._tangents.append((i, j, compat.form(tangent)))
+        if self._matrix is None:
+            self._matrix = self._create_matrix()
+
+    def trial(self, i: int) -> tuple[Any, Any]:
+        """Return the test and trial function of block i, for tangent corrections."""
+        space = self.blocks[i].function.function_space
+        return ufl.TestFunction(space), ufl.TrialFunction(space)
+
+    @property
+    def matrix(self) -> PETSc.Mat:
+        """The one matrix of this system."""
+        assert self._matrix is not None
+        return self._matrix
+
+    @property
+    def size(self) -> int:
+        """Global number of unknowns, constrained ones included."""
+        return self.x.getSize()
+
+    # -- moving between the vector and the functions ------------------------------------------
+
+    def pull(self, x: PETSc.Vec) -> None:
+        """Copy unknowns from the vector into all functions, ghosts included."""
+        self._scatter.scatter(x, self._local, addv=False, mode=PETSc.ScatterMode.FORWARD)
+        values = self._local.getArray(readonly=True)
+        for block, (positions, source) in zip(self.blocks, self._sources, strict=True):
+            block.function.x.array[positions] = values[source]
+
+    def push(self, x: PETSc.Vec) -> None:
+        """Copy the functions' owned values into the vector."""
+        start = 0
+        array = x.getArray()
+        for block in self.blocks[: self._n_independent]:
+            array[start : start + block.n_owned] = block.function.x.array[: block.n_owned]
+            start += block.n_owned
+
+    def gather(self, local: Sequence[np.ndarray | None], out: PETSc.Vec) -> None:
+        """Add rank-local arrays of the blocks (None: nothing) into a zeroed vector."""
+        self._local.set(0.0)
+        values = self._local.getArray()
+        for array, (positions, source) in zip(local, self._sources, strict=True):
+            if array is not None:
+                np.add.at(values, source, array[positions])
+        out.set(0.0)
+        self._scatter.scatter(self._local, out, addv=True, mode=PETSc.ScatterMode.REVERSE)
+
+    # -- assembly -----------------------------------------------------------------------------
+
+    def residual(self, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        """Evaluate the residual; constrained rows are zero."""
+        self.pull(x)
+        local: list[np.ndarray | None] = [None] * len(self.blocks)
+        for i, form in self._residuals:
+            array = np.zeros_like(self.blocks[i].function.x.array)
+            compat.assemble_vector(form, array)
+            local[i] = array
+        self.gather(local, out)
+
+    def tangent(self) -> PETSc.Mat:
+        """Assemble the tangent at the functions' present values."""
+        A = self.matrix
+        A.zeroEntries()
+        for i, j, form in self._tangents:
+            rows, columns = self._index_sets[i], self._index_sets[j]
+            sub = A.getLocalSubMatrix(rows, columns)
+            compat.assemble_matrix(sub, form)
+            A.restoreLocalSubMatrix(rows, columns, sub)
+        A.assemblyBegin(PETSc.Mat.AssemblyType.FLUSH)
+        A.assemblyEnd(PETSc.Mat.AssemblyType.FLUSH)
+        for row in self._constrained_rows:
+            A.setValue(row, row, 1.0, addv=PETSc.InsertMode.INSERT_VALUES)
+        A.assemble()
+        return A
+
+    def energies(self) -> list[float]:
+        """Evaluate each energy, in N mm, over all ranks."""
+        return [compat.assemble_scalar(self.comm, energy) for energy in self._energies]
+
+    # -- numbering ----------------------------------------------------------------------------
+
+    def _number_independent(self) -> None:
+        independent = self.blocks[: self._n_independent]
+        total = sum(block.n_owned for block in independent)
+        start = self.comm.exscan(total) or 0
+        self._first = start
+        for block in independent:
+            # Ghosts learn their numbers from their owners by a scatter of the function itself.
+            values = block.function.x.array.copy()
+            block.function.x.array[: block.n_owned] = start + np.arange(block.n_owned)
+            block.function.x.scatter_forward()
+            block.numbers = np.rint(block.function.x.array).astype(np.int64)
+            block.function.x.array[:] = values
+            start += block.n_owned
+
+    def _number_shared(self, block: Block, shared: SharedUnknowns) -> None:
+        block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
+        source = self.blocks[shared.of]
+        free = self._free(source)
+        dofmap = block.function.function_space.dofmap
+        for masters, cells in zip(shared.masters, shared.cells, strict=True):
+            found = self.comm.allgather(free[masters] if len(masters) else np.empty(0, np.int64))
+            numbers = next(numbers for numbers in found if len(numbers))
+            for cell in cells:
+                for point, dof in enumerate(dofmap.cell_dofs(cell)):
+                    first = dof * block.block_size
+                    part = numbers[point * block.block_size :][: block.block_size]
+                    block.numbers[first : first + block.block_size] = part
+
+    def _free(self, block: Block) -> np.ndarray:
+        numbers = block.numbers.copy()
+        numbers[block.constrained] = -1
+        return numbers
+
+    def _lay_out(self) -> None:
+        """Line up all blocks' numbers."""
+        ends = np.cumsum([0, *(len(block.numbers) for block in self.blocks)])
+        self._spans = list(zip(ends[:-1], ends[1:], strict=True))
+        self._free_numbers = np.concatenate([self._free(block) for block in self.blocks])
+
+    def _build_scatter(self) -> None:
+        wanted = np.unique(self._free_numbers[self._free_numbers >= 0]).astype(PETSc.IntType)
+        self._local = PETSc.Vec().createSeq(len(wanted))
+        self._scatter = PETSc.Scatter().create(
+            self.x,
+            PETSc.IS().createGeneral(wanted, comm=self.comm),
+            self._local,
+            PETSc.IS().createStride(len(wanted), 0, 1, comm=MPI.COMM_SELF),
+        )
+        self._sources = []
+        for start, end in self._spans:
+            numbers = self._free_numbers[start:end]
+            positions = np.nonzero(numbers >= 0)[0]
+            self._sources.append((positions, np.searchsorted(wanted, numbers[positions])))
+        owned = np.arange(self._first, self._first + self.n_owned)
+        self._constrained_rows = np.setdiff1d(
+            owned,
+            np.concatenate([self._free(b) for b in self.blocks[: self._n_independent]]),
+        ).astype(PETSc.IntType)
+
+    # -- the matrix ---------------------------------------------------------------------------
+
+    def _create_matrix(self) -> PETSc.Mat:
+        owned = np.arange(self._first, self._first + self.n_owned)
+        rows, columns = [owned], [owned]
+        for i, j, form in self._tangents:
+            if max(i, j) < self._n_independent:
+                found = self._independent_pattern(i, j, form)
+            else:
+                found = self._shared_pattern(i, j)
+            rows.append(found[0])
+            columns.append(found[1])
+        row, column = np.concatenate(rows) - self._first, np.concatenate(columns)
+        shape = (self.n_owned, self.size)
+        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
+        csr.sort_indices()
+        A = PETSc.Mat().createAIJ(
+            ((self.n_owned, None), (self.n_owned, None)),
+            csr=(
+                csr.indptr.astype(PETSc.IntType),
+                csr.indices.astype(PETSc.IntType),
+                np.zeros(csr.nnz),
+            ),
+            comm=self.comm,
+        )
+        A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        A.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, True)
+        # Number -1 drops what is added to a constrained row or column: symmetry is kept.
+        A.setLGMap(
+            PETSc.LGMap().create(self._free_numbers.astype(PETSc.IntType), comm=self.comm)
+        )
+        self._index_sets = [self._index_set(b) for b in range(len(self.blocks))]
+        return A
+
+    def _index_set(self, b: int) -> PETSc.IS:
+        start, end = self._spans[b]
+        return PETSc.IS().createStride(end - start, start, 1, comm=MPI.COMM_SELF)
+
+    def _independent_pattern(self, i: int, j: int, form: Any) -> tuple[np.ndarray, np.ndarray]:
+        pattern = compat.sparsity(form)
+        indptr, indices, _ = pattern.getValuesCSR()
+        row = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
+        pattern.destroy()
+        return self._to_system(i, row, owned=True), self._to_system(j, indices, owned=False)
+
+    def _to_system(self, b: int, numbers: np.ndarray, owned: bool) -> np.ndarray:
+        """Turn a block's own numbers (of owned rows, or global columns) into the system's."""
+        block = self.blocks[b]
+        first = int(block.numbers[0]) if block.n_owned else 0
+        if owned:
+            return first + numbers.astype(np.int64)
+        starts = np.array(self.comm.allgather((block.n_owned, first)), dtype=np.int64)
+        block_first = np.concatenate([[0], np.cumsum(starts[:, 0])])
+        rank = np.searchsorted(block_first, numbers, side="right") - 1
+        return numbers - block_first[rank] + starts[rank, 1]
+
+    def _shared_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
+        left, right = self.blocks[i], self.blocks[j]
+        shared = left if i >= self._n_independent else right
+        points = np.nonzero(shared.numbers.reshape(-1, shared.block_size)[:, 0] >= 0)[0]
+        dofmap = shared.function.function_space.dofmap
+        n_cells = dofmap.index_map.size_local + dofmap.index_map.num_ghosts
+        rows, columns = [], []
+        for cell in range(n_cells):
+            if np.isin(dofmap.cell_dofs(cell), points).any():
+                row, column = (_cell_numbers(block, self._free(block), cell)
+                               for block in (left, right))
+                grid = np.meshgrid(row[row >= 0], column[column >= 0], indexing="ij")
+                rows.append(grid[0].ravel())
+                columns.append(grid[1].ravel())
+        empty = np.empty(0, dtype=np.int64)
+        row, column = (np.concatenate([empty, *part]) for part in (rows, columns))
+        everything = self.comm.allgather((row, column))
+        row, column = (np.concatenate([part[k] for part in everything]) for k in (0, 1))
+        mine = (row >= self._first) & (row < self._first + self.n_owned)
+        return row[mine], column[mine]
+
+
+def _cell_numbers(block: Block, numbers: np.ndarray, cell: int) -> np.ndarray:
+    dofs = block.function.function_space.dofmap.cell_dofs(cell)
+    size = block.block_size
+    return numbers[(dofs[:, None] * size + np.arange(size)).ravel()]
+
+
+def _derivative(form: Any, function: Any, number: int) -> Any | None:
+    if form is None or function not in form.coefficients():
+        return None
+    argument = ufl.classes.Argument(function.function_space, number)
+    return ufl.derivative(form, function, argument)
+
+
+def _sum(forms: Any) -> Any | None:
+    present = [form for form in forms if form is not None]
+    return sum(present[1:], present[0]) if present else None
