@@ -40,7 +40,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 STYLE = {
     "font.family": "DejaVu Sans", "font.size": 11, "axes.spines.top": False,
     "axes.spines.right": False, "axes.grid": True, "grid.color": "#e4e4e4",
-    "axes.edgecolor": "#555", "lines.linewidth": 1.8, "legend.frameon": False, "axes.axisbelow": True,
+    "axes.edgecolor": "#555", "lines.linewidth": 1.8, "legend.frameon": False,
+    "axes.axisbelow": True,
 }
 
 

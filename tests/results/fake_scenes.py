@@ -88,7 +88,7 @@ def spar_path(n_cells=6, loads=(0.0, 0.01, 0.02, 0.03), comm=MPI.COMM_WORLD):
         compat.vector_space(compat.create_mesh(comm, "hexahedron", mesh.cells, mesh.points), 2))
     scene = FakeScene(
         "spar", {"elastomer": function},
-        {"elastomer": lambda x, p: bent(x, 25.0 * p, geometry.length)}, mirror_x=0.0)
+        {"elastomer": lambda x, p: bent(x, 25.0 * p, geometry.length)}, multiplicity=2)
     states = [
         State({"upper_MPa": p, "lower_MPa": 0.0},
               {"span_angle_deg": float(np.degrees(25.0 * p)),
