@@ -49,7 +49,7 @@ class BeamFrame:
         self.energy = beam_energy(self.function, axes, stiffness) * dx
 
     def cellwise(self, values: np.ndarray) -> fem.Function:
-        """Return the function with one value a bar, ``values`` of shape (m,), (m, k) or (m, k, l)."""
+        """Return the function with one value (scalar, vector, matrix) a bar, given as (m, ...)."""
         space = compat.discontinuous_space(self.mesh, 0, values.shape[1:])
         function = fem.Function(space)
         size = int(np.prod(values.shape[1:], dtype=int))
@@ -98,7 +98,7 @@ class BeamFrame:
         return (6 * nodes[np.argmin(away)] + np.arange(6)).astype(np.int32)
 
     def owned(self, dofs: np.ndarray) -> np.ndarray:
-        """Return the dofs if this rank owns them, else none."""
+        """Return the dofs if this rank owns them, else none: the masters of shared unknowns."""
         n_owned = 6 * self.function.function_space.dofmap.index_map.size_local
         return dofs[dofs < n_owned]
 
@@ -111,16 +111,10 @@ class BeamFrame:
         return self.comm.allreduce(values, op=MPI.SUM)
 
 
-def rotation_about_z(theta: np.ndarray) -> float:
-    """Return the turn about z in degrees, positive down (clockwise), of a rotation vector.
-
-    It is the angle in the x-y plane between x and the turned x; for turns about z alone it is
-    minus theta_z, of turns up to half a revolution.
-    """
+def turned_x(theta: np.ndarray) -> np.ndarray:
+    """Return where the rotation vector ``theta`` turns the direction x, shape (3,)."""
     angle = float(np.linalg.norm(theta))
-    if angle == 0.0:
-        return 0.0
-    a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / angle**2
-    turned_x = 1.0 - b * (theta[1] ** 2 + theta[2] ** 2)
-    turned_y = a * theta[2] + b * theta[0] * theta[1]
-    return float(-np.degrees(np.arctan2(turned_y, turned_x)))
+    a = np.sinc(angle / np.pi)
+    b = 0.5 * np.sinc(angle / (2.0 * np.pi)) ** 2
+    x = np.array([1.0, 0.0, 0.0])
+    return x + a * np.cross(theta, x) + b * np.cross(theta, np.cross(theta, x))

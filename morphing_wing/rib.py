@@ -1,0 +1,182 @@
+"""The pantographic rib as a scene: a frame of beams with large rotations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from . import compat
+from .angles import deflection_line, rotation_about_z
+from .errors import require
+from .forms.beam import displacement
+from .forms.cable import cable_potential
+from .frame import BeamFrame, turned_x
+from .geometry.rib import RibGeometry
+from .materials import RESIN, Elastic
+from .newton import Newton
+from .path import Path, State
+from .scene import Scene, choose_fidelity
+from .stepping import Stepping
+from .system import Block, EquilibriumSystem
+
+FIDELITIES = ("draft",)
+
+
+class Rib(Scene):
+    """A rib clamped at its root, bent by a moment or a cable at its tail.
+
+    Parameters
+    ----------
+    geometry
+        Dimensions.
+    material
+        Resin.
+    fidelity
+        "draft": a frame of beams.
+    comm
+        Communicator; all ranks of MPI by default.
+    options_prefix
+        Prefix of this scene's PETSc options.
+
+    Examples
+    --------
+    >>> rib = Rib(RibGeometry.validation())                          # doctest: +SKIP
+    >>> rib.bend(torque=[0.0, 5.0]).table()                          # doctest: +SKIP
+    """
+
+    name = "rib"
+    load_names = ("torque_Nmm", "cable_N")
+    stepping = Stepping(easy=10, predict=True)
+
+    def __init__(
+        self,
+        geometry: RibGeometry,
+        material: Elastic = RESIN,
+        fidelity: str = "draft",
+        comm: MPI.Comm | None = None,
+        options_prefix: str = "rib_",
+    ) -> None:
+        choose_fidelity(fidelity, FIDELITIES)
+        super().__init__(fidelity, comm)
+        self.geometry, self.material = geometry, material
+        self.primary_load = "torque_Nmm"
+        self.beams = BeamFrame(self.comm, geometry.frame(), material)
+        self._tail = np.array([geometry.length, 0.0, 0.0])
+        self._guide = fem.Constant(self.beams.mesh, self._tail + [0.0, -100.0, 0.0])
+        clamped = self.beams.end_dofs("root", 0)
+        self.system = EquilibriumSystem(self.comm, [Block(self.beams.function, clamped)])
+        self._options_prefix = options_prefix
+
+    def bend(
+        self,
+        torque: float | Sequence[float],
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[..., None] | None = None,
+    ) -> Path:
+        """Bend by a moment about z at the tail, positive when it turns the tail down.
+
+        Its potential is M theta_z with the rotation vector's third component: exact while the
+        tail turns about z alone, as a rib does that is symmetric in z.
+
+        Parameters
+        ----------
+        torque
+            Moment in N mm: a number or a sequence of them.
+        on_step, on_cut
+            Called on every rank after each converged step, and after each step that was cut.
+        """
+        self.primary_load = "torque_Nmm"
+        return self.follow({"torque_Nmm": torque}, on_step, on_cut)
+
+    def pull(
+        self,
+        cable: float | Sequence[float],
+        guide: Sequence[float] = (0.0, -100.0, 0.0),
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[..., None] | None = None,
+    ) -> Path:
+        """Pull by a cable of constant tension from the tail to a fixed guide point.
+
+        Parameters
+        ----------
+        cable
+            Tension in N: a number or a sequence of them.
+        guide
+            The guide point, seen from the undeformed tail, mm.
+        on_step, on_cut
+            Called on every rank after each converged step, and after each step that was cut.
+        """
+        tensions = np.atleast_1d(np.asarray(cable, dtype=object)).ravel()
+        slack = [t for t in tensions if isinstance(t, (int, float, np.number)) and t < 0.0]
+        require(not slack, "cable", min(slack, default=0.0), "N", "0 N or more: cables only pull")
+        self._guide.value = self._tail + _guide(guide)
+        self.primary_load = "cable_N"
+        return self.follow({"cable_N": cable}, on_step, on_cut)
+
+    # -- for the pictures ---------------------------------------------------------------------
+
+    @property
+    def functions(self) -> dict[str, fem.Function]:
+        """Displacement in mm (and rotation vector) by name."""
+        return {"ribs": self.beams.function}
+
+    def description(self) -> dict[str, Any]:
+        """Return all parameters, for `summary.json`."""
+        return {
+            "geometry": asdict(self.geometry),
+            "material": asdict(self.material),
+            "element": "Simo-Reissner beam, quadratic, 2 Gauss points",
+            "guide_mm": [float(x) for x in self._guide.value - self._tail],
+        }
+
+    # -- what the scene is made of ------------------------------------------------------------
+
+    def _newton(self) -> Newton:
+        return Newton(self.system, self._options_prefix)
+
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+        mesh, w = self.beams.mesh, self.beams.function
+        position = ufl.SpatialCoordinate(mesh) + displacement(w)
+        potentials = {
+            "torque_Nmm": lambda torque: torque * w[5],
+            "cable_N": lambda tension: cable_potential(tension, position, self._guide),
+        }
+        energy = self.beams.energy
+        self.loads, self._shortenings = {}, {}
+        for name in in_use:
+            load = fem.Constant(mesh, compat.scalar_type(0.0))
+            energy = energy + self.beams.at_ends("tail", potentials[name](load))
+            unit = potentials[name](1.0)
+            self._shortenings[name] = compat.form(self.beams.at_ends("tail", -unit))
+            self.loads[name] = [load]
+        return [energy], None
+
+    def _stored(self) -> list[Any]:
+        return [self.beams.energy]
+
+    def _conjugates(self) -> dict[str, float]:
+        return {name: compat.assemble_scalar(self.comm, form)
+                for name, form in self._shortenings.items()}
+
+    def _measures(self) -> dict[str, float]:
+        tail = self.beams.end_values("tail", 0)
+        return {
+            "chord_angle_deg": rotation_about_z(turned_x(tail[3:])),
+            "chord_line_deg": deflection_line(tail[:3], self._tail),
+        }
+
+
+def _guide(guide: Sequence[float]) -> np.ndarray:
+    try:
+        point = np.asarray(guide, dtype=float)
+    except (TypeError, ValueError):
+        point = np.empty(0)
+    ok = point.shape == (3,) and bool(np.isfinite(point).all()) and bool(np.any(point != 0.0))
+    require(ok, "guide", guide, "mm", "three finite numbers, not all of them 0")
+    return point
