@@ -1,8 +1,9 @@
 # What a newcomer types: make demo, make test. Each installs what is missing first.
 
 python := .venv/bin/python
-bin := .venv/bin
 ranks ?= 2
+# A rank that fails stops them all; they must not share pytest's cache.
+parallel := $(python) -m pytest -x -p no:cacheprovider tests/parallel
 
 # One thread a rank: MPI's ranks are what uses the cores.
 export OMP_NUM_THREADS ?= 1
@@ -10,7 +11,7 @@ export OMPI_ALLOW_RUN_AS_ROOT := 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 mpirun := mpirun --oversubscribe
 
-.PHONY: help setup demo test quick parallel lint
+.PHONY: help setup demo test quick lint
 
 help:
 	@echo "make setup   install what is missing: Debian's packages, then .venv (does nothing twice)"
@@ -28,12 +29,12 @@ demo: setup
 
 test: setup
 	$(python) -m pytest
-	mpirun -n 2 $(python) -m pytest tests/parallel
-	mpirun -n 3 $(python) -m pytest tests/parallel
+	mpirun -n 2 $(parallel)
+	mpirun -n 3 $(parallel)
 
 quick: setup
 	$(python) -m pytest -m quick
-	mpirun -n 2 $(python) -m pytest -m quick tests/parallel
+	mpirun -n 2 $(parallel) -m quick
 
 lint: setup
-	$(bin)/ruff check .
+	$(python) -m ruff check .

@@ -12,6 +12,7 @@ no harm where it brings a BLAS of its own (from pip), but Debian's numpy and con
 PETSc's: then the kernel is fixed already, and all that `check` can do is to warn.
 """
 
+import ctypes
 import os
 import platform
 import warnings
@@ -28,6 +29,14 @@ KERNELS = (
 )
 # What OpenBLAS falls back to on x86-64 when it does not know the processor.
 FALLBACK_CORES = ("prescott", "katmai")
+REFERENCE = "reference"
+# One function of each BLAS that may stand behind the name libblas.so.3 (Debian's alternatives).
+FAST_FUNCTIONS = (
+    "openblas_get_config",
+    "bli_info_get_version_str",
+    "ATL_buildinfo",
+    "MKL_Get_Version",
+)
 
 _warned = False
 
@@ -80,21 +89,22 @@ def describe() -> dict[str, str]:
     Returns
     -------
     dict
-        `library` (its path), `version`, `core` (the kernel that it runs) and `coretype` (what
-        `OPENBLAS_CORETYPE` asks for). What is not known, or not loaded yet, is "".
+        `library` (its path), `version`, `core` (the kernel that it runs, or "reference") and
+        `coretype` (what `OPENBLAS_CORETYPE` asks for). What is unknown or not loaded yet is "".
     """
     found = {"library": "", "version": "", "core": "", "coretype": os.environ.get(VARIABLE, "")}
-    known = [
+    reference = [path for path in _mapped_files("libblas.") if _is_reference(path)]
+    fast = [
         library
         for library in threadpoolctl.threadpool_info()
         if library["user_api"] == "blas" and not _is_private(library["filepath"])
     ]
-    if known:
-        found["library"] = known[0]["filepath"]
-        found["version"] = known[0].get("version") or ""
-        found["core"] = known[0].get("architecture") or ""
-    else:
-        found["library"] = next(iter(_mapped_files("libblas.")), "")
+    if reference:
+        found |= {"library": reference[0], "core": REFERENCE}
+    elif fast:
+        found["library"] = fast[0]["filepath"]
+        found["version"] = fast[0].get("version") or ""
+        found["core"] = fast[0].get("architecture") or ""
     return found
 
 
@@ -115,7 +125,7 @@ def complaint(used: dict[str, str], flags: set[str]) -> str:
             f"slower than this processor's {core}: import morphing_wing before numpy, or start "
             f"Python with {VARIABLE}={core} in the environment."
         )
-    if used["library"] and not used["version"] and not used["core"]:
+    if used["core"] == REFERENCE:
         return (
             f"PETSc's BLAS is the reference one ({used['library']}), about four times slower than "
             "OpenBLAS: install libopenblas0-serial, or choose it with update-alternatives."
@@ -136,6 +146,12 @@ def cpu_flags() -> set[str]:
 def _is_private(path: str) -> bool:
     """Return True for the copies that the pip packages of numpy and scipy keep for themselves."""
     return any(part in ("numpy.libs", "scipy.libs") for part in Path(path).parts)
+
+
+def _is_reference(path: str) -> bool:
+    """Return True for a libblas with none of the fast libraries in it or below it."""
+    library = ctypes.CDLL(path)
+    return not any(hasattr(library, name) for name in FAST_FUNCTIONS)
 
 
 def _mapped_files(prefix: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Prove that the installed pieces fit each other: compiled modules, numpy, scalars, the package."""
 
 import importlib
+import logging
 
 # First, as in every program: it prepares BLAS and MPI for what is loaded next.
 from morphing_wing import blas
@@ -8,6 +9,7 @@ from morphing_wing import blas
 # isort: split
 import dolfinx
 import numpy as np
+import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
 
@@ -20,6 +22,12 @@ vector.scale(2.0)
 np.testing.assert_array_equal(vector.array, [0.0, 2.0, 4.0])
 mesh = dolfinx.mesh.create_unit_square(MPI.COMM_SELF, 2, 2)
 assert mesh.geometry.x.shape == (9, 3)
+
+# The smallest form that has to be compiled: needs a C compiler and Python's headers.
+logging.disable(logging.INFO)  # the compiler's command lines
+area = dolfinx.fem.assemble_scalar(dolfinx.fem.form(ufl.as_ufl(1.0) * ufl.dx(domain=mesh)))
+np.testing.assert_allclose(area, 1.0)
+
 total = np.zeros(1)
 MPI.COMM_SELF.Allreduce(np.ones(1), total)
 assert total[0] == 1.0

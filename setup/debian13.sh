@@ -76,7 +76,7 @@ fi
 
 if [ $# = 0 ]; then
     set -- sh -c 'python -m pytest -m quick &&
-        mpirun -n 2 python -m pytest -m quick tests/parallel'
+        mpirun -n 2 python -m pytest -x -p no:cacheprovider -m quick tests/parallel'
 fi
 say "in $root$home with $environment: $*"
 inside sh -c 'cd '$home' && . '$environment'/bin/activate && exec "$@"' sh "$@"
