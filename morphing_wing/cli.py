@@ -1,0 +1,164 @@
+"""The command line, ``morphing-wing``; also under ``mpirun``.
+
+Exit status: 0 done, 1 unexpected failure, 2 bad input, 3 stopped before the last load step (what
+was reached is written). Whatever goes wrong is told in one sentence on stderr. DOLFINx is not
+loaded before something is solved.
+"""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import sys
+import warnings
+from collections.abc import Sequence
+from importlib import resources
+from typing import Annotated, Any
+
+import typer
+from mpi4py import MPI
+
+from morphing_wing.errors import InputError
+from morphing_wing.together import (
+    BAD_INPUT,
+    DONE,
+    INTERRUPTED,
+    STOPPED,
+    UNEXPECTED,
+    run_together,
+)
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="morphing-wing",
+    help="Pneumatic morphing wings with pantographic ribs, by coupled finite elements.",
+    add_completion=False,
+)
+
+
+@app.command()
+def solve(
+    scene: Annotated[
+        pathlib.Path,
+        typer.Argument(metavar="SCENE.toml", help="Scene file; 'scenes NAME' prints one."),
+    ],
+    fidelity: Annotated[
+        str | None, typer.Option(metavar="F", help="Takes the place of the file's own fidelity.")
+    ] = None,
+    out: Annotated[
+        pathlib.Path | None,
+        typer.Option(metavar="DIR", help="Folder of the results; output/SCENE if not given."),
+    ] = None,
+) -> int:
+    """Solve a scene and write summary.json, table.csv, pictures and fields."""
+    from morphing_wing.root import on_root
+    from morphing_wing.scene_file import read_scene
+
+    comm = MPI.COMM_WORLD
+    folder = pathlib.Path("output") / scene.stem if out is None else out
+
+    def read() -> Any:
+        checked = read_scene(or_hint(scene), fidelity)
+        check_folder(folder)
+        return checked
+
+    file = comm.bcast(on_root(comm, read), root=0)
+
+    from morphing_wing.progress import Progress
+
+    built = file.build(comm)
+    with Progress(built) as progress:
+        path = file.run(built, on_step=progress)
+    path.save(folder)
+    typer.echo(f"{path.reason} Results are in {folder}.")
+    return DONE if path.converged else STOPPED
+
+
+@app.command()
+def scenes(
+    name: Annotated[str | None, typer.Argument(help="Print this scene's TOML.")] = None,
+) -> int:
+    """List the built-in scenes, or print one as TOML to start from."""
+    built_in = built_in_scenes()
+    if name is None:
+        width = max(map(len, built_in))
+        for each, text in built_in.items():
+            typer.echo(f"{each:{width}}  {text.splitlines()[0].lstrip('# ')}")
+    elif name in built_in:
+        typer.echo(built_in[name], nl=False)
+    else:
+        raise InputError(f"scene {name!r}: must be one of {', '.join(built_in)}")
+    return DONE
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command on all ranks and return its exit status; no exception leaves it.
+
+    Parameters
+    ----------
+    argv
+        Arguments without the program's name; None: those of the process.
+    """
+    arguments = sys.argv[1:] if argv is None else list(argv)
+
+    def command() -> int:
+        with warnings.catch_warnings():
+            warnings.showwarning = warn_in_one_line
+            status = app(arguments or ["--help"], prog_name="morphing-wing", standalone_mode=False)
+        return status if isinstance(status, int) else DONE
+
+    return run_together(MPI.COMM_WORLD, command, explain)
+
+
+def explain(problem: BaseException) -> tuple[int, str]:
+    """Return exit status and sentence of what a command raised."""
+    if isinstance(problem, InputError):
+        return BAD_INPUT, f"morphing-wing: {one_line(problem)}"
+    if hasattr(problem, "format_message"):  # the command line's own refusals, of typer or click
+        return BAD_INPUT, f"morphing-wing: {' '.join(problem.format_message().split())}"
+    if isinstance(problem, (KeyboardInterrupt, typer.Abort)):
+        return INTERRUPTED, "morphing-wing: interrupted"
+    if isinstance(problem, SystemExit):
+        return (problem.code if isinstance(problem.code, int) else UNEXPECTED), ""
+    if os.environ.get("MORPHING_WING_DEBUG"):
+        import traceback
+
+        return UNEXPECTED, "".join(traceback.format_exception(problem))
+    said = f"unexpected {type(problem).__name__}: {one_line(problem)}"
+    return UNEXPECTED, f"morphing-wing: {said} (MORPHING_WING_DEBUG=1 shows where)"
+
+
+def built_in_scenes() -> dict[str, str]:
+    """Return the TOML text of the built-in scenes by name."""
+    folder = resources.files("morphing_wing") / "scenes"
+    files = sorted((f for f in folder.iterdir() if f.name.endswith(".toml")), key=lambda f: f.name)
+    return {f.name.removesuffix(".toml"): f.read_text(encoding="utf-8") for f in files}
+
+
+def or_hint(scene: pathlib.Path) -> pathlib.Path:
+    """Return the scene file, or say how to make it where it is a built-in scene's name."""
+    if not scene.exists() and scene.stem in built_in_scenes():
+        command = f"morphing-wing scenes {scene.stem} > {scene.stem}.toml"
+        raise InputError(f"{scene}: no such file, '{command}' writes one")
+    return scene
+
+
+def check_folder(folder: pathlib.Path) -> None:
+    """Refuse a folder that cannot be written, without making it."""
+    exists = next(part for part in (folder.absolute(), *folder.absolute().parents) if part.exists())
+    if not exists.is_dir():
+        raise InputError(f"--out {folder}: must be a folder, {exists} is a file")
+    if not os.access(exists, os.W_OK | os.X_OK):
+        raise InputError(f"--out {folder}: must be a folder that can be written")
+
+
+def warn_in_one_line(message: Warning | str, *_: Any, **__: Any) -> None:
+    """Show a warning to the user without the line of code it comes from."""
+    if MPI.COMM_WORLD.rank == 0:
+        print(f"morphing-wing: {one_line(message)}", file=sys.stderr)
+
+
+def one_line(said: object) -> str:
+    """Return the text of an exception or warning without line breaks."""
+    return " ".join(str(said).split())
