@@ -11,6 +11,8 @@ pytestmark = pytest.mark.quick
 
 AVX2 = {"avx2", "fma"}
 AVX512 = AVX2 | {"avx512f", "avx512dq", "avx512bw", "avx512vl"}
+# MPI first, as the wheels of DOLFINx want it; then PETSc, and its BLAS, before the package.
+LOADED_BEFORE = "import mpi4py.MPI; from petsc4py import PETSc; import morphing_wing;"
 
 
 def run_python(program: str, **environment: str) -> subprocess.CompletedProcess:
@@ -68,14 +70,14 @@ def test_petsc_runs_the_suitable_kernel_after_importing_morphing_wing():
 def test_one_sentence_warns_of_the_fallback_kernel_loaded_before():
     if blas.suitable_core(blas.cpu_flags()) is None:
         pytest.skip("no x86 processor with AVX2")
-    program = "from petsc4py import PETSc; import morphing_wing; morphing_wing._blas.check()"
+    program = LOADED_BEFORE + "morphing_wing._blas.check()"
     outcome = run_python(program, OPENBLAS_CORETYPE="Prescott")
     assert outcome.stderr.count("RuntimeWarning") == 1
     assert "import morphing_wing before numpy" in outcome.stderr
 
 
 def test_ranks_other_than_the_first_do_not_warn():
-    program = "from petsc4py import PETSc; import morphing_wing"
+    program = LOADED_BEFORE
     outcome = run_python(program, OPENBLAS_CORETYPE="Prescott", PMI_RANK="1")
     assert "RuntimeWarning" not in outcome.stderr
 
