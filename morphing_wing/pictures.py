@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 from morphing_wing.curves import STYLE
+from morphing_wing.drawing import Cut, Drawing, default_drawing
 from morphing_wing.fields import scene_grids
 from morphing_wing.renderer import NoRenderer
 from morphing_wing.root import on_root, write_whole
-from morphing_wing.views import Drawing, View, default_drawing
+from morphing_wing.views import View
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,13 +24,19 @@ if TYPE_CHECKING:
 
 __all__ = ["NoRenderer", "caption", "render", "render_strip"]
 
+Box = tuple[int, int, int, int]  # x, y from below, width, height in pixels
+
 WIDTH, HEIGHT = 1600, 1000  # pixels
-_TOP, _BOTTOM, _MARGIN = 90, 110, 24  # pixels for title, colour bar, and around each view
-COLOUR_MAP = "viridis"
+_TOP, _BOTTOM, _MARGIN = 110, 110, 24  # pixels for title, colour bar, and around each view
+# From silicone at rest to warm and dark; lightness falls all the way, shading stays visible.
+COLOUR_MAP = LinearSegmentedColormap.from_list(
+    "silicone", ["#f2efe9", "#f8d58a", "#f2a04e", "#dc6040", "#a92c55", "#681d61"])
 _LOADS = {
     "upper_MPa": (1000.0, "kPa in the upper chambers"), "torque_Nmm": (1.0, "N mm end moment"),
     "lower_MPa": (1000.0, "kPa in the lower chambers"), "cable_N": (1.0, "N in each cable"),
 }
+_RED = "#b00000"
+_CONTACT = "the skin passes through itself or a rib: without contact forces this is fiction"
 _ANGLES = (("span", r"$\varphi_1$"), ("chord", r"$\varphi_2$"))
 
 
@@ -74,8 +82,8 @@ def render_strip(path: Path, file: str | os.PathLike, most: int = 4) -> pathlib.
     return pathlib.Path(file)
 
 
-def caption(state: State) -> str:
-    """Return a state's loads and angles in one line, for titles."""
+def caption(state: State, line_break: str = ":  ") -> str:
+    """Return a state's loads and angles, with ``line_break`` between them."""
     loads = [
         f"{state.load[name] * factor:.4g} {text}"
         for name, (factor, text) in _LOADS.items() if state.load.get(name, 0.0) != 0.0
@@ -86,7 +94,8 @@ def caption(state: State) -> str:
         if face is not None:
             text = f"{symbol} = {face:.1f}°"
             angles.append(text + (f" (deflection line {line:.1f}°)" if line is not None else ""))
-    return ":  ".join(part for part in (", ".join(loads) or "no load", ",  ".join(angles)) if part)
+    parts = (", ".join(loads) or "no load", ",  ".join(angles))
+    return line_break.join(part for part in parts if part)
 
 
 def _drawing(scene: Any, state: State) -> Drawing:
@@ -97,24 +106,14 @@ def _draw_state(
     grids: dict, drawing: Drawing, scene: Any, state: State, file: str | os.PathLike
 ) -> None:
     view = View(grids, drawing)
-    low, high = view.extent()
-    cuts = [False, True] if view.solids else [False]
-    boxes, scale = _boxes(high - low, len(cuts))
     colours = _colours([view])
+    cuts = [None, *view.cuts()]
     with matplotlib.rc_context(STYLE):
-        figure = _figure(f"{scene.name.capitalize()}:  {caption(state)}")
-        if state.contact:
-            _text(figure, 0.5, HEIGHT - 74, "the skin passes through itself or a rib: without "
-                  "contact forces this is fiction", color="#b00000", fontsize=13)
-        for cut, (x, y, width, height) in zip(cuts, boxes, strict=True):
-            image = view.image((width, height), scale, colours, cut)
-            axes = figure.add_axes((x / WIDTH, y / HEIGHT, width / WIDTH, height / HEIGHT))
-            axes.imshow(image)
-            axes.axis("off")
-            note = f"cut along the span at x = {view.section_x():.1f} mm" if cut else "whole"
-            note += "" if cut else ", undeformed in grey"
-            axes.text(0.01, 0.99, note, transform=axes.transAxes, va="top", color="#555",
-                      fontsize=13)
+        figure = _figure(f"{scene.name.capitalize()}:  {caption(state)}", state.contact)
+        for cut, box in zip(cuts, _page(view, cuts), strict=True):
+            low, high = view.extent(cut)
+            image = view.image(box[2:], _scale(high - low, box), colours, cut)
+            _place(figure, image, box, _note(cut), "#555")
         _colour_bar(figure, view, colours)
         write_whole(file, lambda name: figure.savefig(name, format="png"))
 
@@ -124,42 +123,69 @@ def _draw_strip(drawn: list, scene: Any, file: str | os.PathLike) -> None:
     corners = [view.extent() for view in views]
     low = np.min([c[0] for c in corners], axis=0)
     high = np.max([c[1] for c in corners], axis=0)
-    boxes, scale = _boxes(high - low, len(views))
+    boxes = _grid(high - low, len(views))
     colours = _colours(views)
     with matplotlib.rc_context(STYLE):
-        figure = _figure(f"{scene.name.capitalize()}:  from load to load, one scale")
-        for view, (x, y, width, height), (*_, state) in zip(views, boxes, drawn, strict=True):
-            image = view.image((width, height), scale, colours, centre=0.5 * (low + high),
-                               outline=False)
-            axes = figure.add_axes((x / WIDTH, y / HEIGHT, width / WIDTH, height / HEIGHT))
-            axes.imshow(image)
-            axes.axis("off")
-            axes.text(0.01, 0.99, caption(state), transform=axes.transAxes, va="top",
-                      color="#b00000" if state.contact else "#555", fontsize=11)
+        figure = _figure(f"{scene.name.capitalize()}:  from load to load, on one scale", False)
+        for view, box, (*_, state) in zip(views, boxes, drawn, strict=True):
+            image = view.image(box[2:], _scale(high - low, box), colours,
+                               centre=0.5 * (low + high), outline=False)
+            _place(figure, image, box, caption(state, "\n"), _RED if state.contact else "#555")
         _colour_bar(figure, views[-1], colours)
         write_whole(file, lambda name: figure.savefig(name, format="png"))
 
 
-def _boxes(
-    extent: np.ndarray, count: int
-) -> tuple[list[tuple[int, int, int, int]], float]:
-    """Return x, y, width, height of ``count`` views in pixels, and mm per pixel.
+def _note(cut: Cut | None) -> str:
+    if cut is None:
+        return "whole, undeformed in grey"
+    along = "along" if cut.axis == "x" else "across"
+    return f"cut {along} the span at {cut.axis} = {cut.level:.4g} mm"
 
-    Of all arrangements in rows and columns the one that shows the structure largest.
+
+def _page(view: View, cuts: list[Cut | None]) -> list[Box]:
+    """Return where the whole and its cuts stand: alone, two alike, or one large and two small."""
+    height = HEIGHT - _TOP - _BOTTOM
+    if len(cuts) <= 2:
+        sizes = [np.subtract(*view.extent(cut)[::-1]) for cut in cuts]
+        return _grid(np.max(sizes, axis=0), len(cuts))
+    left = 0.58
+    width = int(WIDTH * left)
+    half = height // 2
+    return [(0, _BOTTOM, width, height), (width, _BOTTOM + half, WIDTH - width, half),
+            (width, _BOTTOM, WIDTH - width, half)]
+
+
+def _grid(extent: np.ndarray, count: int) -> list[Box]:
+    """Return ``count`` boxes of one size in rows and columns.
+
+    Of all arrangements the one that shows the structure largest; of nearly equal ones that with the
+    fewest columns, which leaves room for the captions.
     """
-    best = None
+    best: tuple[float, list[Box]] | None = None
     for columns in range(1, count + 1):
         rows = -(-count // columns)
         width, height = WIDTH // columns, (HEIGHT - _TOP - _BOTTOM) // rows
-        scale = max(extent[0] / (width - 2 * _MARGIN), extent[1] / (height - 2 * _MARGIN - 20))
-        if best is None or scale < best[0]:
-            best = (scale, columns, rows, width, height)
-    scale, columns, rows, width, height = best
-    boxes = [
-        ((i % columns) * width, _BOTTOM + (rows - 1 - i // columns) * height, width, height)
-        for i in range(count)
-    ]
-    return boxes, scale
+        boxes = [
+            ((i % columns) * width, _BOTTOM + (rows - 1 - i // columns) * height, width, height)
+            for i in range(count)
+        ]
+        scale = _scale(extent, boxes[0])
+        if best is None or scale < 0.87 * best[0]:
+            best = (scale, boxes)
+    return best[1] if best else []
+
+
+def _scale(extent: np.ndarray, box: Box) -> float:
+    """Return mm per pixel that let a box hold an extent, with a margin and room for a caption."""
+    return max(extent[0] / (box[2] - 2 * _MARGIN), extent[1] / (box[3] - 2 * _MARGIN - 30))
+
+
+def _place(figure: Figure, image: np.ndarray, box: Box, note: str, colour: str) -> None:
+    x, y, width, height = box
+    axes = figure.add_axes((x / WIDTH, y / HEIGHT, width / WIDTH, height / HEIGHT))
+    axes.imshow(image)
+    axes.axis("off")
+    axes.text(0.02, 0.99, note, transform=axes.transAxes, va="top", color=colour, fontsize=13)
 
 
 def _colours(views: list[View]) -> dict[str, Any]:
@@ -170,23 +196,22 @@ def _colours(views: list[View]) -> dict[str, Any]:
     return {"cmap": COLOUR_MAP, "clim": (low, high)}
 
 
-def _figure(title: str) -> Figure:
+def _figure(title: str, contact: bool) -> Figure:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH / 100, HEIGHT / 100), dpi=100, facecolor="white")
     FigureCanvasAgg(figure)
-    _text(figure, 0.5, HEIGHT - 36, title, fontsize=19)
+    long = len(title.replace("$", "")) > 90
+    figure.text(0.5, 1 - 38 / HEIGHT, title, ha="center", va="center", fontsize=15 if long else 19)
+    if contact:
+        figure.text(0.5, 1 - 80 / HEIGHT, _CONTACT, ha="center", va="center", color=_RED,
+                    fontsize=13)
     return figure
-
-
-def _text(figure: Figure, x: float, y: float, text: str, **look: Any) -> None:
-    figure.text(x, y / HEIGHT, text, ha="center", va="center", **look)
 
 
 def _colour_bar(figure: Figure, view: View, colours: dict[str, Any]) -> None:
     from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
 
     axes = figure.add_axes((0.3, 62 / HEIGHT, 0.4, 16 / HEIGHT))
     mappable = ScalarMappable(Normalize(*colours["clim"]), colours["cmap"])

@@ -31,7 +31,7 @@ _VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 
 
 class NoRenderer(RuntimeError):
-    """This machine cannot draw in 3D; the message says what to install."""
+    """Nothing here draws in 3D; the message says what to install."""
 
 
 @lru_cache(maxsize=1)

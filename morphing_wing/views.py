@@ -1,60 +1,26 @@
-"""Views of a deformed structure: what is drawn, from where, and the images that come out."""
+"""Views of a deformed structure, whole and cut: grids in, images out."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from morphing_wing.drawing import Cut, Drawing
+from morphing_wing.mirror import mirrored
 from morphing_wing.renderer import choose_renderer
 from morphing_wing.tubes import tubes
 
 if TYPE_CHECKING:
     import pyvista
 
-__all__ = ["Drawing", "View", "default_drawing"]
+__all__ = ["View"]
 
-# From where each kind of scene is seen (x chordwise, y up, z along the span): spar and wing from
-# the front with the root at the left and the tip at the right, the rib from the tip's side.
-_EYES = {"spar": (-1.0, 0.75, 0.55), "wing": (-0.55, 0.75, 1.0), "rib": (0.3, 0.45, 1.0)}
-_OUTLINE = {"color": "#8d99a6", "line_width": 1.6, "opacity": 0.75, "lighting": False}
-_EDGES = {"color": "#2d3640", "line_width": 1.3, "opacity": 0.85, "lighting": False}
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """How a scene wants to be drawn; a scene's ``drawing(state)`` may return one.
-
-    Attributes
-    ----------
-    eye
-        Direction from the structure to the viewer.
-    mirror_x
-        Plane x = constant (mm, undeformed) in which a half model is mirrored; None: whole model.
-    section_x
-        Where the cut along the span lies (mm, undeformed); None: the middle, or the mirror plane.
-    radius
-        Radius in mm of each function on intervals by name: one number, or one for each cell.
-    cables
-        Deformed polylines of the cables, each of shape (n, 3) in mm; needed on rank 0 only.
-    colour_by
-        ``"stretch"`` or ``"displacement"``; solids are coloured by it.
-    """
-
-    eye: tuple[float, float, float] = _EYES["spar"]
-    mirror_x: float | None = None
-    section_x: float | None = None
-    radius: Mapping[str, float | np.ndarray] = field(default_factory=dict)
-    cables: Sequence[np.ndarray] = ()
-    colour_by: str = "stretch"
-
-
-def default_drawing(scene: Any) -> Drawing:
-    """Return the drawing of a scene that says nothing: by its name and its multiplicity."""
-    mirror = 0.0 if getattr(scene, "multiplicity", 1) == 2 else None
-    return Drawing(eye=_EYES.get(scene.name, _EYES["spar"]), mirror_x=mirror)
+_CUT_EYES = {"x": (-1.0, 0.45, 0.45), "z": (-0.12, 0.2, 1.0)}
+_OUTLINE = {"color": "#8d99a6", "line_width": 1.6, "lighting": False}
+_EDGES = {"color": "#2d3640", "line_width": 1.8, "lighting": False,
+          "render_lines_as_tubes": True}
 
 
 class View:
@@ -70,48 +36,45 @@ class View:
 
     def __init__(self, grids: Mapping[str, pyvista.UnstructuredGrid], drawing: Drawing) -> None:
         self.drawing = drawing
-        self.solids = [g for g in grids.values() if g.n_cells and g.GetCell(0).GetCellDimension() > 1]
-        self.lines = {n: g for n, g in grids.items()
-                      if g.n_cells and g.GetCell(0).GetCellDimension() == 1}
-        forward = -np.array(drawing.eye, dtype=float)
-        self.forward = forward / np.linalg.norm(forward)
-        right = np.cross(self.forward, (0.0, 1.0, 0.0))
-        self.right = right / np.linalg.norm(right)
-        self.up = np.cross(self.right, self.forward)
-        self._wholes = [self._mirrored(grid) for grid in self.solids]
-
-    def values(self) -> np.ndarray:
-        """Return what the colours show, at the points of the solids (of the lines without any)."""
-        if self.solids and self.drawing.colour_by == "stretch":
-            return np.concatenate([grid.point_data["stretch"] for grid in self.solids])
-        grids = self.solids or list(self.lines.values())
-        return np.concatenate(
-            [np.linalg.norm(grid.point_data["displacement"], axis=1) for grid in grids])
+        self.solids = [g for g in grids.values() if _dimension(g) > 1]
+        self.lines = {name: g for name, g in grids.items() if _dimension(g) == 1}
+        if drawing.mirror_x is not None:
+            self.solids = [mirrored(grid, drawing.mirror_x) for grid in self.solids]
+        self._all = (*self.solids, *self.lines.values())
 
     @property
     def shows_stretch(self) -> bool:
         """Whether the colours show stretch (else displacement, mm)."""
         return bool(self.solids) and self.drawing.colour_by == "stretch"
 
-    def section_x(self) -> float:
-        """Return where the cut lies, mm in the undeformed structure."""
-        if self.drawing.section_x is not None:
-            return self.drawing.section_x
-        if self.drawing.mirror_x is not None:
-            return self.drawing.mirror_x
-        x = np.concatenate([grid.points[:, 0] for grid in self.solids])
-        return 0.5 * (x.min() + x.max())
+    def values(self) -> np.ndarray:
+        """Return what the colours show, at the points of the solids (of the lines without any)."""
+        if self.shows_stretch:
+            return np.concatenate([grid.point_data["stretch"] for grid in self.solids])
+        return np.concatenate([
+            np.linalg.norm(grid.point_data["displacement"], axis=1)
+            for grid in self.solids or self.lines.values()])
 
-    def extent(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return lower and upper corner of all that is drawn, in the viewer's plane, mm."""
-        clouds = [grid.points for grid in (*self._wholes, *self.lines.values())]
-        clouds += [g.points + g.point_data["displacement"]
-                   for g in (*self._wholes, *self.lines.values())]
-        flat = np.concatenate(clouds) @ np.stack([self.right, self.up], axis=1)
+    def cuts(self) -> list[Cut]:
+        """Return the cuts to be drawn beside the whole."""
+        if not self.solids:
+            return []
+        if self.drawing.cuts is not None:
+            return list(self.drawing.cuts)
+        x = np.concatenate([grid.points[:, 0] for grid in self.solids])
+        mirror = self.drawing.mirror_x
+        return [Cut("x", 0.5 * (x.min() + x.max()) if mirror is None else mirror)]
+
+    def extent(self, cut: Cut | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Return lower and upper corner of what is drawn, in the viewer's plane, mm."""
+        clouds = [g.points + by * g.point_data["displacement"] for g in self._all for by in (0, 1)]
+        clouds += [np.asarray(cable) for cable in self.drawing.cables if cut is None]
+        right, up, _ = self._axes(cut)
+        flat = np.concatenate(clouds) @ np.stack([right, up], axis=1)
         return flat.min(axis=0), flat.max(axis=0)
 
     def image(
-        self, size: tuple[int, int], scale: float, colours: dict[str, Any], cut: bool = False,
+        self, size: tuple[int, int], scale: float, colours: dict[str, Any], cut: Cut | None = None,
         centre: np.ndarray | None = None, outline: bool = True,
     ) -> np.ndarray:
         """Draw, and return the picture as an array of shape (height, width, 3).
@@ -125,89 +88,117 @@ class View:
         colours
             ``cmap`` and ``clim`` for pyvista.
         cut
-            Take away what lies before the cut along the span, so that chambers show.
+            Take away what lies before it, so that chambers show.
         centre
-            Centre of the picture in the viewer's plane, mm.
+            Centre of the picture in the viewer's plane, mm; None: of what is drawn.
         outline
             Whether to draw the edges of the undeformed structure.
         """
         choose_renderer()
         import pyvista
 
-        plotter = pyvista.Plotter(off_screen=True, window_size=size)
+        plotter = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
         plotter.set_background("white")
-        for grid in self._wholes:
-            self._add_solid(plotter, self._cut(grid) if cut else grid, colours, cut)
+        plotter.add_light(pyvista.Light(light_type="headlight", intensity=0.6))
+        plotter.add_light(pyvista.Light(
+            position=(-0.6, 1.0, 0.8), light_type="camera light", intensity=0.45))
+        for grid in self.solids:
+            self._add_solid(plotter, grid, colours, cut)
             if outline:
-                plotter.add_mesh(_edges(_surface(grid, deformed=False, subdivision=0)), **_OUTLINE)
-        if not cut:
-            for name, grid in self.lines.items():
-                self._add_lines(plotter, name, grid, colours)
-            for cable in self.drawing.cables:
-                plotter.add_mesh(pyvista.lines_from_points(np.asarray(cable, dtype=float)),
-                                 color="black", line_width=2.0)
+                outside = _surface(grid, deformed=False, subdivision=0).connectivity("largest")
+                plotter.add_mesh(_edges(outside), **_OUTLINE)  # without the chambers' edges
+        for name, grid in self.lines.items():
+            self._add_lines(plotter, name, grid, colours, cut)
+        for cable in self.drawing.cables if cut is None else ():
+            plotter.add_mesh(pyvista.lines_from_points(np.asarray(cable, dtype=float)),
+                             color="black", line_width=2.5)
         if centre is None:
-            centre = 0.5 * np.sum(self.extent(), axis=0)
-        focus = centre[0] * self.right + centre[1] * self.up
-        focus = focus + self.forward * (self._middle() @ self.forward)
-        reach = 10.0 * scale * max(size)
-        plotter.camera.position = focus - reach * self.forward
-        plotter.camera.focal_point = focus
-        plotter.camera.up = self.up
-        plotter.camera.parallel_projection = True
-        plotter.camera.parallel_scale = 0.5 * size[1] * scale
-        plotter.reset_camera_clipping_range()
+            centre = 0.5 * np.sum(self.extent(cut), axis=0)
+        self._aim(plotter, size, scale, centre, cut)
         plotter.enable_anti_aliasing("ssaa")
         picture = plotter.screenshot(return_img=True)
         plotter.close()
         return picture
 
-    def _middle(self) -> np.ndarray:
-        points = np.concatenate([g.points for g in (*self._wholes, *self.lines.values())])
-        return 0.5 * (points.min(axis=0) + points.max(axis=0))
+    def _axes(self, cut: Cut | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the viewer's right, up and forward."""
+        forward = -np.array(self.drawing.eye if cut is None else _CUT_EYES[cut.axis], dtype=float)
+        forward /= np.linalg.norm(forward)
+        right = np.cross(forward, (0.0, 1.0, 0.0))
+        right /= np.linalg.norm(right)
+        return right, np.cross(right, forward), forward
 
-    def _mirrored(self, grid: pyvista.UnstructuredGrid) -> pyvista.UnstructuredGrid:
-        if self.drawing.mirror_x is None:
-            return grid
-        other = grid.copy()
-        other.points[:, 0] = 2 * self.drawing.mirror_x - other.points[:, 0]
-        other.point_data["displacement"] = other.point_data["displacement"] * (-1.0, 1.0, 1.0)
-        return grid.merge(other, merge_points=True)  # one skin: no face left in the mirror plane
-
-    def _cut(self, grid: pyvista.UnstructuredGrid) -> pyvista.UnstructuredGrid:
-        x = grid.points[:, 0]
-        keep = x if self.drawing.eye[0] <= 0 else -x
-        level = self.section_x() if self.drawing.eye[0] <= 0 else -self.section_x()
-        grid = grid.copy()
-        grid.point_data["keep"] = keep
-        # Just off the plane: a cut exactly through faces leaves slivers.
-        return grid.clip_scalar("keep", value=level + 1e-4 * np.ptp(x), invert=False)
+    def _aim(
+        self, plotter: pyvista.Plotter, size: tuple[int, int], scale: float, centre: np.ndarray,
+        cut: Cut | None,
+    ) -> None:
+        right, up, forward = self._axes(cut)
+        depth = np.concatenate([g.points for g in self._all]) @ forward
+        focus = centre[0] * right + centre[1] * up + 0.5 * (depth.min() + depth.max()) * forward
+        camera = plotter.camera
+        camera.position = focus - 10.0 * scale * max(size) * forward
+        camera.focal_point, camera.up = focus, up
+        camera.parallel_projection = True
+        camera.parallel_scale = 0.5 * size[1] * scale
+        plotter.reset_camera_clipping_range()
 
     def _add_solid(
-        self, plotter: pyvista.Plotter, grid: pyvista.UnstructuredGrid, colours: dict, cut: bool
+        self, plotter: pyvista.Plotter, grid: pyvista.UnstructuredGrid, colours: dict,
+        cut: Cut | None,
     ) -> None:
-        surface = _surface(grid, deformed=True, subdivision=0 if cut else 2)
-        seen_through = bool(self.lines) and not cut
+        surface = _surface(_without(grid, cut), deformed=True, subdivision=0 if cut else 2)
+        edges = dict(_EDGES)
+        if self.lines and cut is None:
+            # Ribs show through the skin; of the chambers only the edges.
+            plotter.add_mesh(_edges(surface), **_EDGES | {"opacity": 0.25, "line_width": 1.2})
+            surface = surface.clean().connectivity("largest")
+            plotter.enable_depth_peeling(8)
+            edges["opacity"] = 0.7
         plotter.add_mesh(
             surface, scalars="stretch" if self.shows_stretch else "magnitude",
-            opacity=0.4 if seen_through else 1.0, show_scalar_bar=False, smooth_shading=True,
-            split_sharp_edges=True, feature_angle=30.0, ambient=0.25, diffuse=0.75, specular=0.15,
-            specular_power=12.0, **colours)
-        plotter.add_mesh(_edges(surface), **_EDGES)
-        if seen_through:
-            plotter.enable_depth_peeling(8)
+            opacity=0.45 if self.lines and cut is None else 1.0, show_scalar_bar=False,
+            smooth_shading=True, split_sharp_edges=True, feature_angle=30.0, ambient=0.36,
+            diffuse=0.72, specular=0.1, specular_power=12.0, **colours)
+        plotter.add_mesh(_edges(surface), **edges)
 
     def _add_lines(
-        self, plotter: pyvista.Plotter, name: str, grid: pyvista.UnstructuredGrid, colours: dict
+        self, plotter: pyvista.Plotter, name: str, grid: pyvista.UnstructuredGrid, colours: dict,
+        cut: Cut | None,
     ) -> None:
         radius = self.drawing.radius.get(name, 0.6)
         look: dict[str, Any] = {"smooth_shading": True, "specular": 0.3}
         if self.solids:
-            look["color"] = "#39424e"
+            look["color"] = "#4a5a6b"
+            keep = np.nonzero(_kept(grid.cell_centers().points, cut))[0]
+            grid = grid.extract_cells(keep)
         else:
             look |= {"scalars": "magnitude", "show_scalar_bar": False, **colours}
-            plotter.add_mesh(tubes(grid, 0.12 * np.min(radius), deformed=False), color="#aab3bd")
-        plotter.add_mesh(tubes(grid, radius, deformed=True), **look)
+            plotter.add_mesh(tubes(grid, 0.15 * np.min(radius), deformed=False), color="#aab3bd")
+        if grid.n_cells:
+            plotter.add_mesh(tubes(grid, radius, deformed=True), **look)
+
+
+def _dimension(grid: pyvista.UnstructuredGrid) -> int:
+    return grid.GetCell(0).GetCellDimension() if grid.n_cells else 0
+
+
+def _depth(points: np.ndarray, cut: Cut) -> np.ndarray:
+    """Return how far behind the cut points lie, mm."""
+    return points[:, 0] - cut.level if cut.axis == "x" else cut.level - points[:, 2]
+
+
+def _kept(points: np.ndarray, cut: Cut | None) -> np.ndarray:
+    return np.ones(len(points), dtype=bool) if cut is None else _depth(points, cut) > 0.0
+
+
+def _without(grid: pyvista.UnstructuredGrid, cut: Cut | None) -> pyvista.UnstructuredGrid:
+    if cut is None:
+        return grid
+    grid = grid.copy()
+    grid.point_data["depth"] = _depth(grid.points, cut)
+    # Just off the plane: a cut exactly through faces leaves slivers.
+    return grid.clip_scalar(
+        scalars="depth", value=1e-4 * np.ptp(grid.point_data["depth"]), invert=False)
 
 
 def _surface(

@@ -1,0 +1,67 @@
+"""How a scene wants to be drawn: from where, cut where, and how thick its bars are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+__all__ = ["Cut", "Drawing", "default_drawing"]
+
+# From where each kind of scene is seen (x chordwise, y up, z along the span): spar and wing from
+# the front with the root at the left and the tip at the right, the rib from the tip's side.
+_EYES = {"spar": (-1.0, 0.55, 0.6), "wing": (-0.6, 0.7, 1.0), "rib": (0.25, 0.35, 1.0)}
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A plane that takes away what lies before it.
+
+    Attributes
+    ----------
+    axis
+        ``"x"`` (along the span: what lies at smaller x is taken away) or ``"z"`` (across the span:
+        what lies at larger z is taken away).
+    level
+        Where, mm in the undeformed structure.
+    """
+
+    axis: str
+    level: float
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """How a scene wants to be drawn; a scene's ``drawing(state)`` may return one.
+
+    Attributes
+    ----------
+    eye
+        Direction from the structure to the viewer.
+    mirror_x
+        Plane x = constant (mm, undeformed) in which a half model is mirrored; None: whole model.
+    cuts
+        At most two cuts, each drawn beside the whole; None: one along the span, in the mirror plane
+        or in the middle.
+    radius
+        Radius in mm of each function on intervals by name: one number, or one for each cell.
+    cables
+        Deformed polylines of the cables, each of shape (n, 3) in mm; needed on rank 0 only.
+    colour_by
+        ``"stretch"`` or ``"displacement"``; solids are coloured by it.
+    """
+
+    eye: tuple[float, float, float] = _EYES["spar"]
+    mirror_x: float | None = None
+    cuts: Sequence[Cut] | None = None
+    radius: Mapping[str, float | np.ndarray] = field(default_factory=dict)
+    cables: Sequence[np.ndarray] = ()
+    colour_by: str = "stretch"
+
+
+def default_drawing(scene: Any) -> Drawing:
+    """Return the drawing of a scene that says nothing: by its name and its multiplicity."""
+    mirror = 0.0 if getattr(scene, "multiplicity", 1) == 2 else None
+    return Drawing(eye=_EYES.get(scene.name, _EYES["spar"]), mirror_x=mirror)
