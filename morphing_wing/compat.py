@@ -65,7 +65,10 @@ def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray
         element = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
         arguments = (element, points) if _cells_then_element() else (points, element)
         return dolfinx.mesh.create_mesh(comm, cells, *arguments)
-    domain = ufl.Mesh(ufl.VectorElement("Lagrange", ufl.Cell(cell, geometric_dimension=3), 1))
+    # FFCx gives coordinate elements without a variant one in place, at the first compilation;
+    # arguments made before and after that would then count as different.
+    shape = ufl.Cell(cell, geometric_dimension=3)
+    domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, 1, variant="equispaced"))
     return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
 
 
@@ -190,6 +193,15 @@ def assemble_scalar(comm: MPI.Comm, functional: Any) -> float:
 def assemble_vector(functional: Any, out: np.ndarray) -> None:
     """Add a compiled linear form's rank-local contributions (owned and ghosted) to ``out``."""
     fem.assemble_vector(out, functional)
+
+
+def add_ghosts(function: Any) -> None:
+    """Add ghost values to their owners', then give ghosts the owners' sums."""
+    x = function.x
+    mode = dolfinx.la.InsertMode.add if hasattr(dolfinx.la, "InsertMode") else (
+        dolfinx.la.ScatterMode.add)
+    x.scatter_reverse(mode)
+    x.scatter_forward()
 
 
 def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:

@@ -137,8 +137,14 @@ class Rib(Scene):
 
     # -- what the scene is made of ------------------------------------------------------------
 
+    def accept(self) -> None:
+        """Keep the section forces of the present state for the next first tangent."""
+        self.beams.mark_converged()
+
     def _newton(self) -> Newton:
-        return Newton(self.system, self._options_prefix)
+        return Newton(
+            self.system, self._options_prefix, before_tangent=self.beams.before_tangent
+        )
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         mesh, w = self.beams.mesh, self.beams.function
@@ -155,7 +161,7 @@ class Rib(Scene):
             unit = potentials[name](1.0)
             self._shortenings[name] = compat.form(self.beams.at_ends("tail", -unit))
             self.loads[name] = [load]
-        return [energy], None
+        return [energy], [self.beams.tangent_correction]
 
     def _stored(self) -> list[Any]:
         return [self.beams.energy]
