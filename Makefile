@@ -7,9 +7,12 @@ parallel := $(python) -m pytest -x -p no:cacheprovider tests/parallel
 
 # One thread a rank: MPI's ranks are what uses the cores.
 export OMP_NUM_THREADS ?= 1
+# Open MPI refuses root, and more ranks than cores, unless it is told that this is meant; the last
+# two lines say the latter to Open MPI 4 and 5. (No option of mpirun: MPICH's knows none of them.)
 export OMPI_ALLOW_RUN_AS_ROOT := 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
-mpirun := mpirun --oversubscribe
+export OMPI_MCA_rmaps_base_oversubscribe := 1
+export PRTE_MCA_rmaps_default_mapping_policy := :oversubscribe
 
 .PHONY: help setup demo test quick lint
 
