@@ -22,6 +22,10 @@ home=/opt/morphing-wing        # the project's folder inside
 say() { echo "debian: $*"; }
 [ "$(id -u)" = 0 ] || { echo "debian: needs root, for debootstrap and chroot" >&2; exit 2; }
 
+# One run at a time in a folder: the next one waits.
+exec 9>"$root.lock"
+flock 9
+
 # Where this machine gets Debian from, there the new system does too.
 mirror() {
     apt-get indextargets --format '$(LABEL) $(REPO_URI)' 'Created-By: Packages' |
