@@ -1,10 +1,9 @@
 """The BLAS under PETSc and MUMPS: give it the right kernel, and say which one is at work.
 
-Most of a solve is spent in MUMPS's dense kernels, so in the BLAS. OpenBLAS picks its kernel when it
-is loaded, by the processor's model number; a processor newer than the library is taken for a
-"Prescott" of 2004, and everything runs four to eight times slower (OpenBLAS 0.3.21 of Debian 12
-on new Intel processors). The processor's own flags say better what it can do, and
-`OPENBLAS_CORETYPE` tells OpenBLAS.
+More than half of a large solve is spent in MUMPS's dense kernels, that is in the BLAS. OpenBLAS
+picks its kernel when it is loaded, by the processor's model number. OpenBLAS 0.3.21 (Debian 12)
+takes some new Intel processors for a "Prescott" of 2004 and then runs four to eight times slower
+than it could. The processor's own flags say better what it can do, and `OPENBLAS_CORETYPE` tells it.
 
 OpenBLAS reads the variable once, when it is loaded. So `prepare` runs when `morphing_wing` is
 imported, and works if that is before PETSc's BLAS is loaded. A numpy that was imported first does
