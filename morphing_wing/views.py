@@ -147,19 +147,19 @@ class View:
         cut: Cut | None,
     ) -> None:
         surface = _surface(_without(grid, cut), deformed=True, subdivision=0 if cut else 2)
-        edges = dict(_EDGES)
+        look = {"split_sharp_edges": True, "feature_angle": 30.0}
         if self.lines and cut is None:
             # Ribs show through the skin; of the chambers only the edges.
-            plotter.add_mesh(_edges(surface), **_EDGES | {"opacity": 0.25, "line_width": 1.2})
+            plotter.add_mesh(_edges(surface), **_EDGES | {"line_width": 1.0})
             surface = surface.clean().connectivity("largest")
-            plotter.enable_depth_peeling(8)
-            edges["opacity"] = 0.7
+            look = {"opacity": 0.38}
+        plotter.add_mesh(_edges(surface), **_EDGES)
+        if "opacity" in look:
+            surface = _far_to_near(surface, self._axes(cut)[2])
         plotter.add_mesh(
             surface, scalars="stretch" if self.shows_stretch else "magnitude",
-            opacity=0.45 if self.lines and cut is None else 1.0, show_scalar_bar=False,
-            smooth_shading=True, split_sharp_edges=True, feature_angle=30.0, ambient=0.36,
-            diffuse=0.72, specular=0.1, specular_power=12.0, **colours)
-        plotter.add_mesh(_edges(surface), **edges)
+            show_scalar_bar=False, smooth_shading=True, ambient=0.36, diffuse=0.72, specular=0.1,
+            specular_power=12.0, **look, **colours)
 
     def _add_lines(
         self, plotter: pyvista.Plotter, name: str, grid: pyvista.UnstructuredGrid, colours: dict,
@@ -210,6 +210,21 @@ def _surface(
     if deformed:
         grid.points = grid.points + displacement
     return grid.extract_surface(nonlinear_subdivision=subdivision, algorithm="dataset_surface")
+
+
+def _far_to_near(surface: pyvista.PolyData, forward: np.ndarray) -> pyvista.PolyData:
+    """Return a surface of triangles sorted for blending: OpenGL blends in the order of drawing."""
+    import pyvista
+
+    surface = surface.compute_normals(
+        split_vertices=True, feature_angle=30.0, cell_normals=False, consistent_normals=False)
+    order = np.argsort(-(surface.cell_centers().points @ forward))
+    triangles = surface.faces.reshape(-1, 4)[order]
+    ordered = pyvista.PolyData(surface.points, faces=triangles.ravel())
+    for name, values in surface.point_data.items():
+        ordered.point_data[name] = values
+    ordered.point_data.active_normals_name = "Normals"
+    return ordered
 
 
 def _edges(surface: pyvista.PolyData) -> pyvista.PolyData:
