@@ -98,9 +98,10 @@ def _measures(line: Any, axes: Any) -> list[Any]:
         ufl.as_vector([line[first + i] for i in range(3)]) for first in (0, 3, 6)
     )
     e1 = axes[0, :]
-    strain = axes * ufl.dot(ufl.transpose(rotation(theta)), e1 + u_prime)
+    # The difference before turning to local axes is exactly zero in the reference state.
+    strain = axes * (ufl.dot(ufl.transpose(rotation(theta)), e1 + u_prime) - e1)
     curvature = axes * ufl.dot(ufl.transpose(tangent_map(theta)), theta_prime)
-    return [strain[0] - 1, strain[1], strain[2]] + [curvature[i] for i in range(3)]
+    return [strain[i] for i in range(3)] + [curvature[i] for i in range(3)]
 
 
 def displacement(w: Any) -> Any:
