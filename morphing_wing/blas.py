@@ -3,7 +3,7 @@
 More than half of a large solve is spent in MUMPS's dense kernels, that is in the BLAS. OpenBLAS
 picks its kernel when it is loaded, by the processor's model number. OpenBLAS 0.3.21 (Debian 12)
 takes some new Intel processors for a "Prescott" of 2004 and then runs four to eight times slower
-than it could. The processor's own flags say better what it can do, and `OPENBLAS_CORETYPE` tells it.
+than it could. The processor's own flags say better, and `OPENBLAS_CORETYPE` tells OpenBLAS.
 
 OpenBLAS reads the variable once, when it is loaded. So `prepare` runs when `morphing_wing` is
 imported, and works if that is before PETSc's BLAS is loaded. A numpy that was imported first does
