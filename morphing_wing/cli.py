@@ -68,10 +68,11 @@ def solve(
     from morphing_wing.progress import Progress
 
     built = file.build(comm)
-    with Progress(built) as progress:
-        path = file.run(built, on_step=progress)
+    progress = Progress(comm)
+    path = file.run(built, on_step=progress, on_cut=progress.cut)
+    progress.end(path.converged, path.reason)
     path.save(folder)
-    typer.echo(f"{path.reason} Results are in {folder}.")
+    typer.echo(f"results are in {folder}")
     return DONE if path.converged else STOPPED
 
 

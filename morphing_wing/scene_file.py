@@ -20,6 +20,7 @@ anything is built. This module loads no DOLFINx; `SceneFile.build` does.
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import pathlib
 import tomllib
 from collections.abc import Iterator
@@ -27,7 +28,9 @@ from contextlib import contextmanager
 from typing import Any
 
 from morphing_wing.errors import InputError, require
-from morphing_wing.geometry import RibGeometry, SparGeometry, WingGeometry
+from morphing_wing.geometry.rib import RibGeometry
+from morphing_wing.geometry.spar import SparGeometry
+from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
 
@@ -72,9 +75,8 @@ class SceneFile:
 
     def build(self, comm: Any = None) -> Any:
         """Build the scene with its mesh, on all ranks of ``comm`` (default: all there are)."""
-        import morphing_wing
-
-        scene = getattr(morphing_wing, self.scene.capitalize())
+        module = importlib.import_module(f"morphing_wing.{self.scene}")  # loads DOLFINx
+        scene = getattr(module, self.scene.capitalize())
         return scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm)
 
     def run(self, scene: Any, **options: Any) -> Any:

@@ -15,6 +15,7 @@ from pydantic import BeforeValidator, Field
 from morphing_wing.errors import InputError, plain, require
 from morphing_wing.scene_values import (
     Angle,
+    GlueStiffness,
     Length,
     Modulus,
     Point,
@@ -37,7 +38,8 @@ class Keys(pydantic.BaseModel):
 
     def given(self) -> dict[str, Any]:
         """Return what the file gives, without what it leaves out; lists as tuples."""
-        values = {name: getattr(self, name) for name in self.model_fields_set}
+        names = [name for name in type(self).model_fields if name in self.model_fields_set]
+        values = {name: getattr(self, name) for name in names}
         return {n: tuple(v) if isinstance(v, list) else v for n, v in values.items()}
 
 
@@ -66,6 +68,7 @@ class RibKeys(Keys):
     crossing_angle: Angle | None = None
     n_cells: Count | None = None
     section: Literal["flush", "square"] | None = None
+    bosses: bool | None = None
 
 
 class WingKeys(Keys):
@@ -85,6 +88,10 @@ class WingKeys(Keys):
     skin_thickness: Annotated[Length | None, BeforeValidator(or_none)] = None
     rib: Annotated[RibKeys | None, BeforeValidator(or_none)] = None
     rib_positions: Annotated[list[float], Field(min_length=1)] | None = None
+    foot_height: Length | None = None
+    foot_width: Length | None = None
+    tail_bond_length: Length | None = None
+    glue_stiffness: GlueStiffness | None = None
     cable_guide: Point | None = None
 
 

@@ -9,7 +9,17 @@ from pydantic import BeforeValidator, Field
 
 from morphing_wing.units import KINDS, quantity
 
-__all__ = ["Angle", "Length", "Modulus", "Point", "Pressure", "Tension", "Torque", "or_none"]
+__all__ = [
+    "Angle",
+    "GlueStiffness",
+    "Length",
+    "Modulus",
+    "Point",
+    "Pressure",
+    "Tension",
+    "Torque",
+    "or_none",
+]
 
 MAX_POINTS = 10_000
 
@@ -59,6 +69,7 @@ def pulling(tensions: tuple[float, ...]) -> tuple[float, ...]:
 
 Length = Annotated[float, measured("length")]
 Angle = Annotated[float, measured("angle")]
+GlueStiffness = Annotated[float, measured("stiffness per area")]
 Modulus = Annotated[float, measured("pressure")]
 Point = Annotated[list[Length], Field(min_length=3, max_length=3)]
 Pressure = Annotated[tuple[float, ...], load("pressure")]

@@ -21,6 +21,7 @@ KINDS = {
     "force": ("N", "0.2 N"),
     "torque": ("N mm", "5 N mm"),
     "angle": ("deg", "70 deg"),
+    "stiffness per area": ("N/mm^3", "50 N/mm^3"),
 }
 """What can be measured: the unit that the package computes in, and an example of a text."""
 
