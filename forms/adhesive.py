@@ -6,7 +6,7 @@ from typing import Any
 
 import ufl
 
-from .rotation import rotation_matrix
+from .beam import rotation as rotation_matrix
 
 
 def foot_displacement(X: Any, origin: Any, translation: Any, rotation: Any) -> Any:

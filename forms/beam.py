@@ -46,40 +46,6 @@ def beam_energy(w: Any, axes: Any, stiffness: Any) -> Any:
     return sum(stiffness[i] * measures[i] ** 2 for i in range(6)) / 2
 
 
-def beam_tangent_correction(
-    w: Any, last: Any, test: Any, trial: Any, axes: Any, stiffness: Any, linearised: Any
-) -> Any:
-    r"""Return the change of the tangent for mixed integration point Newton, per length.
-
-    The consistent tangent is B^T C B + n . d2(eps), with the strains eps = (Gamma, K) and section
-    forces n = C eps. Slender bars have axial forces of Newton's first iterates that are far too
-    large, and n . d2(eps) carries them on. Here its n becomes
-    n_lin = C (eps(last) + d eps(last)[w - last]), the force of a mixed form's iterate; the
-    residual is untouched, and both tangents agree at the solution (Magisano, Leonetti, Garcea,
-    Computer Methods in Applied Mechanics and Engineering 313 (2017) 986-1005).
-
-    Parameters
-    ----------
-    w, last
-        Unknowns, and those of the iterate before.
-    test, trial
-        Arguments of the bilinear form.
-    axes, stiffness
-        As in `beam_energy`.
-    linearised
-        1; or 0 to take n of ``last`` itself, for the first tangent after a converged state.
-    """
-    line, line_last = _line(w, axes), ufl.variable(_line(last, axes))
-    now, before = _measures(line, axes), _measures(line_last, axes)
-    change = linearised * (line - line_last)
-    correction = 0
-    for i in range(6):
-        eps_lin = before[i] + ufl.inner(ufl.diff(before[i], line_last), change)
-        second = ufl.derivative(ufl.derivative(now[i], w, test), w, trial)
-        correction += stiffness[i] * (eps_lin - now[i]) * second
-    return correction
-
-
 def beam_strains(w: Any, axes: Any) -> tuple[Any, Any]:
     """Return axial and shear strains Gamma, and torsion and curvatures K in 1/mm."""
     measures = _measures(_line(w, axes), axes)

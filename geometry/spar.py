@@ -48,14 +48,14 @@ class SparMeshing:
 
     @classmethod
     def graded(cls, level: int = 1) -> SparMeshing:
-        """Return a mesh graded along the span towards the re-entrant chamber corners."""
+        """Return a mesh graded towards the re-entrant chamber corners, along span and height."""
         return cls(
             cavity_length=two_sided(2 * level + 2, 3.0),
             wall_length=two_sided(2 * level, 3.0),
-            cavity_width=geometric(3 + level, 0.5),
+            cavity_width=geometric(2 + level, 0.5),
             side_thickness=uniform(level),
             top_thickness=uniform(level),
-            cavity_height=two_sided(level + 1, 2.0),
+            cavity_height=two_sided(level + 2, 4.0),
             middle_thickness=uniform(level),
         )
 

@@ -13,15 +13,12 @@ from mpi4py import MPI
 
 from . import compat
 from .elements import Element
-from .forms.hyperelasticity import (
-    mixed_point_tangent_correction,
-    mixed_volumetric_energy,
-    volumetric_energy,
-    yeoh_energy,
-)
+from .forms.hyperelasticity import mixed_volumetric_energy, volumetric_energy, yeoh_energy
 from .forms.kinematics import cofactor, deformation_gradient
+from .forms.mixed_point import mixed_point_correction
 from .forms.pressure import enclosed_volume
 from .geometry.hexmesh import HexMesh
+from .iterate import Iterate
 from .materials import Yeoh
 from .system import Block
 
@@ -68,10 +65,10 @@ class Elastomer:
         self.block = Block(self.function, constrained)
         if element.pressure is None:
             self.u, self.p = self.function, None
-            self._last = fem.Function(space)
-            self._linearised = fem.Constant(self.mesh, compat.scalar_type(0.0))
+            self.iterate: Iterate | None = Iterate(self.function)
         else:
             self.u, self.p = ufl.split(self.function)
+            self.iterate = None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
 
@@ -93,34 +90,24 @@ class Elastomer:
     @cached_property
     def tangent_correction(self) -> Any | None:
         """Bilinear form that makes a displacement form's tangent robust; None for mixed forms."""
-        if self.p is not None:
+        if self.iterate is None:
             return None
-        space = self.function.function_space
-        v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
-        dx = self.volume_measure(self.element.volumetric_quadrature)
-        bulk = self._constant(self.material.bulk)
-        return mixed_point_tangent_correction(
-            self.u, self._last, v, w, bulk, self._linearised
-        ) * dx
 
-    def before_tangent(self, iteration: int) -> None:
-        """Set from which state the tangent's pressure comes; call before each assembly.
+        def dilatation(u: Any) -> list[Any]:
+            return [ufl.det(deformation_gradient(u)) - 1.0]
 
-        The first tangent of a solve keeps the pressure of the state that `mark_converged` saw.
-        """
-        if self.p is None:
-            self._linearised.value = 0.0 if iteration == 0 else 1.0
-            self._last.x.array[:] = self._converged if iteration == 0 else self._present
-            self._present = self.function.x.array.copy()
-
-    def mark_converged(self) -> None:
-        """Take the present displacement as the one whose pressure the next first tangent keeps."""
-        if self.p is None:
-            self._converged = self.function.x.array.copy()
+        correction = mixed_point_correction(
+            dilatation,
+            [self._constant(self.material.bulk)],
+            self.u,
+            self.iterate.last,
+            self.iterate.step,
+        )
+        return correction * self.volume_measure(self.element.volumetric_quadrature)
 
     def chamber_volume(self, face: str) -> Any:
         """Return the deformed volume in mm^3 enclosed by a chamber's faces, a UFL functional."""
-        return enclosed_volume(self.u, self.X, self.normal) * self.face_measure(face)
+        return self.on_face(face, enclosed_volume(self.u, self.X, self.normal))
 
     # -- measures -----------------------------------------------------------------------------
 
@@ -129,11 +116,11 @@ class Elastomer:
         degree = degree or self.element.quadrature
         return ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": degree})
 
-    def face_measure(self, face: str) -> Any:
-        """Return ds on a named face; a face without facets integrates to zero."""
-        measure = ufl.Measure("ds", self.mesh, subdomain_data=self.face_tags,
-                              metadata={"quadrature_degree": self.element.quadrature})
-        return measure(self.face_numbers[face])
+    def on_face(self, face: str, integrand: Any, degree: int | None = None) -> Any:
+        """Return the integral of an integrand over a named face, a UFL functional."""
+        ds = ufl.Measure("ds", self.mesh, subdomain_data=self.face_tags,
+                         metadata={"quadrature_degree": degree or self.element.quadrature})
+        return sum(integrand * ds(number) for number in self._face_numbers[face])
 
     def mean_normal(self, face: str) -> np.ndarray:
         """Return the area vector in mm^2 of a deformed face, integral of ``cof(F) N``."""
@@ -170,30 +157,61 @@ class Elastomer:
         if not hasattr(self, "_compiled_probes"):
             self._compiled_probes: dict[str, list[Any]] = {}
         if face not in self._compiled_probes:
-            ds = self.face_measure(face)
             area_vector = cofactor(deformation_gradient(self.u)) * self.normal
             integrands = [*(area_vector[i] for i in range(3)), *(self.u[i] for i in range(3))]
             one = self._constant(1.0)
-            self._compiled_probes[face] = [compat.form(f * ds) for f in (*integrands, one)]
+            self._compiled_probes[face] = [
+                compat.form(self.on_face(face, f)) for f in (*integrands, one)
+            ]
         return self._compiled_probes[face]
 
     def _tag_faces(self) -> None:
-        """Tag local facets from pairs (input cell, facet of the cell)."""
-        self.face_numbers = {name: i + 1 for i, name in enumerate(self.grid.facets)}
-        local = {int(c): i for i, c in enumerate(compat.original_cells(self.mesh))}
-        cell_facets = compat.cell_facets(self.mesh)
-        facets, values = [], []
+        """Tag local facets from pairs (input cell, facet of the cell); faces may overlap."""
+        names: dict[tuple[int, int], list[str]] = {}
         for name, pairs in self.grid.facets.items():
             for cell, facet in pairs:
-                if int(cell) in local:
-                    facets.append(cell_facets[local[int(cell)], facet])
-                    values.append(self.face_numbers[name])
-        self.face_tags = compat.facet_tags(self.mesh, np.array(facets), np.array(values))
+                names.setdefault((int(cell), int(facet)), []).append(name)
+        sets = sorted({tuple(found) for found in names.values()})
+        number = {found: i + 1 for i, found in enumerate(sets)}
+        self._face_numbers = {
+            name: [number[found] for found in sets if name in found] for name in self.grid.facets
+        }
+        local = {int(c): i for i, c in enumerate(compat.original_cells(self.mesh))}
+        cell_facets = compat.cell_facets(self.mesh)
+        tagged = [(cell_facets[local[cell], facet], number[tuple(found)])
+                  for (cell, facet), found in names.items() if cell in local]
+        facets, values = np.array(tagged, dtype=np.int32).reshape(-1, 2).T
+        self.face_tags = compat.facet_tags(self.mesh, facets, values)
 
     def face_facets(self, face: str) -> np.ndarray:
         """Return the local facets of a named face."""
         tags = self.face_tags
-        return tags.indices[tags.values == self.face_numbers[face]]
+        return tags.indices[np.isin(tags.values, self._face_numbers[face])]
+
+    def face_cells(self, face: str, chosen: np.ndarray | None = None) -> np.ndarray:
+        """Return the local cells at a face, or at those of its facets in the grid that are chosen.
+
+        ``chosen`` is a mask over ``grid.facets[face]``.
+        """
+        cells = self.grid.facets[face][:, 0]
+        cells = np.unique(cells if chosen is None else cells[chosen])
+        return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells))
+
+    def region_mass(self, region: str) -> np.ndarray:
+        """Return the lumped volume in mm^3 of a region on each owned dof of a displacement form."""
+        cells = np.isin(compat.original_cells(self.mesh), self.grid.regions[region])
+        density = fem.Function(compat.discontinuous_space(self.mesh, 0))
+        for cell in np.flatnonzero(cells):
+            density.x.array[density.function_space.dofmap.cell_dofs(cell)] = 1.0
+        space = self.function.function_space
+        v = ufl.TestFunction(space)
+        mass = fem.Function(space)
+        compat.assemble_vector(
+            compat.form(density * sum(v[i] for i in range(3)) * self.volume_measure()),
+            mass.x.array,
+        )
+        compat.add_ghosts(mass)
+        return mass.x.array[: self.block.n_owned].copy()
 
     def _constrained(
         self, space: Any, clamped: Sequence[str], symmetry: dict[str, int]

@@ -9,11 +9,13 @@ import ufl
 from dolfinx import fem
 from mpi4py import MPI
 
-from morphing_wing.forms.beam import QUADRATURE_DEGREE, beam_energy, beam_tangent_correction
+from morphing_wing.forms.beam import QUADRATURE_DEGREE, beam_energy, beam_strains
+from morphing_wing.forms.mixed_point import mixed_point_correction
 from morphing_wing.geometry.frame import Frame
 from morphing_wing.materials import Elastic
 
 from . import compat
+from .iterate import Iterate
 
 
 class BeamFrame:
@@ -36,42 +38,28 @@ class BeamFrame:
         w = (u, theta) in mm and radians, quadratic, block size 6.
     energy
         UFL functional: stored energy in N mm.
-    tangent_correction
-        UFL bilinear form that makes the tangent robust; call `before_tangent` and
-        `mark_converged` where it is used.
+    tangent_correction, iterate
+        Bilinear form that makes the tangent robust, and the iterates that it needs.
     """
 
     def __init__(self, comm: MPI.Comm, frame: Frame, material: Elastic) -> None:
         self.comm, self.frame = comm, frame
         self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points)
         self.bars = compat.original_cells(self.mesh)
-        space = compat.vector_space(self.mesh, 2, 6)
-        self.function = fem.Function(space, name="ribs")
-        space = self.function.function_space
+        self.function = fem.Function(compat.vector_space(self.mesh, 2, 6), name="ribs")
         axes = self.cellwise(frame.axes)
         stiffness = self.cellwise(frame.stiffness(material.E, material.nu))
         dx = ufl.dx(domain=self.mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
         self.energy = beam_energy(self.function, axes, stiffness) * dx
-        self._last = fem.Function(space)
-        self._linearised = fem.Constant(self.mesh, compat.scalar_type(0.0))
-        self.tangent_correction = beam_tangent_correction(
-            self.function, self._last, ufl.TestFunction(space), ufl.TrialFunction(space),
-            axes, stiffness, self._linearised,
-        ) * dx  # fmt: skip
-        self.mark_converged()
+        self.iterate = Iterate(self.function)
 
-    def before_tangent(self, iteration: int) -> None:
-        """Set from which state the tangent's section forces come; call before each assembly.
+        def strains(w: Any) -> list[Any]:
+            return [part[i] for part in beam_strains(w, axes) for i in range(3)]
 
-        The first tangent of a solve keeps the forces of the state that `mark_converged` saw.
-        """
-        self._linearised.value = 0.0 if iteration == 0 else 1.0
-        self._last.x.array[:] = self._converged if iteration == 0 else self._present
-        self._present = self.function.x.array.copy()
-
-    def mark_converged(self) -> None:
-        """Take the present state as the one whose forces the next first tangent keeps."""
-        self._converged = self.function.x.array.copy()
+        self.tangent_correction = mixed_point_correction(
+            strains, [stiffness[i] for i in range(6)], self.function, self.iterate.last,
+            self.iterate.step,
+        ) * dx
 
     def cellwise(self, values: np.ndarray) -> fem.Function:
         """Return the function with one value (scalar, vector, matrix) a bar, given as (m, ...)."""

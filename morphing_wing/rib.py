@@ -18,6 +18,7 @@ from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
+from .iterate import Iterate
 from .materials import RESIN, Elastic
 from .newton import Newton
 from .path import Path, State
@@ -137,14 +138,11 @@ class Rib(Scene):
 
     # -- what the scene is made of ------------------------------------------------------------
 
-    def accept(self) -> None:
-        """Keep the section forces of the present state for the next first tangent."""
-        self.beams.mark_converged()
+    def _iterates(self) -> list[Iterate]:
+        return [self.beams.iterate]
 
     def _newton(self) -> Newton:
-        return Newton(
-            self.system, self._options_prefix, before_tangent=self.beams.before_tangent
-        )
+        return Newton(self.system, self._options_prefix, before_tangent=self.before_tangent)
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         mesh, w = self.beams.mesh, self.beams.function

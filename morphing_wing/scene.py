@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 from . import compat
 from .errors import InputError, require
+from .iterate import Iterate
 from .newton import Newton, NewtonResult
 from .path import Path, State
 from .stepping import Stepping, follow
@@ -112,6 +113,13 @@ class Scene:
 
     def accept(self) -> None:
         """Take the present state as converged."""
+        for iterate in self._iterates():
+            iterate.accept()
+
+    def before_tangent(self, iteration: int) -> None:
+        """Tell all iterates that a tangent is about to be assembled."""
+        for iterate in self._iterates():
+            iterate.before_tangent(iteration)
 
     def state(
         self, load: Mapping[str, float], result: NewtonResult, seconds: float, requested: bool
@@ -152,6 +160,10 @@ class Scene:
         Sets ``self.loads``: of each load in use the constants that carry it.
         """
         raise NotImplementedError
+
+    def _iterates(self) -> list[Iterate]:
+        """Return what mixed-point tangents need of earlier iterates."""
+        return []
 
     def _stored(self) -> list[Any]:
         """Return the stored energies, UFL functionals without the loads' potentials."""

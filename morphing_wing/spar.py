@@ -10,18 +10,17 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
-from . import compat
 from .angles import deflection_line, rotation_about_x
+from .chambers import Chambers
 from .elastomer import Elastomer
 from .elements import element as element_named
 from .geometry.spar import SparGeometry, SparMeshing
+from .iterate import Iterate
 from .materials import DRAGON_SKIN_30, Yeoh
 from .newton import Newton
 from .path import Path, State
 from .scene import Scene, choose_fidelity
 from .system import EquilibriumSystem
-
-ROWS = {"upper_MPa": "upper_chambers", "lower_MPa": "lower_chambers"}
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,6 @@ class Spar(Scene):
             clamped=("root",),
             symmetry={"symmetry": 0} if half else None,
         )
-        self.body.mark_converged()
         self.system = EquilibriumSystem(self.comm, [self.body.block])
         self._options_prefix = options_prefix
 
@@ -140,35 +138,27 @@ class Spar(Scene):
 
     # -- what the scene is made of ------------------------------------------------------------
 
-    def accept(self) -> None:
-        """Keep the pressure of the present state for the next first tangent."""
-        self.body.mark_converged()
+    def _iterates(self) -> list[Iterate]:
+        return [self.body.iterate] if self.body.iterate else []
 
     def _newton(self) -> Newton:
         return Newton(
             self.system,
             self._options_prefix,
             expected_negative=self.body.n_pressures(),
-            before_tangent=self.body.before_tangent,
+            before_tangent=self.before_tangent,
         )
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
-        energy = self.body.energy
-        self.loads, self._volumes = {}, {}
-        for name in in_use:
-            pressure = fem.Constant(self.body.mesh, compat.scalar_type(0.0))
-            volume = self.body.chamber_volume(ROWS[name])
-            energy = energy - pressure * volume
-            self.loads[name] = [pressure]
-            self._volumes[name] = compat.form(volume)
-        return [energy], [self.body.tangent_correction]
+        self._chambers = Chambers(self.body, in_use)
+        self.loads = self._chambers.pressures
+        return [self.body.energy + self._chambers.potential], [self.body.tangent_correction]
 
     def _stored(self) -> list[Any]:
         return [self.body.energy]
 
     def _conjugates(self) -> dict[str, float]:
-        return {name: compat.assemble_scalar(self.comm, volume)
-                for name, volume in self._volumes.items()}
+        return self._chambers.volumes()
 
     def _measures(self) -> dict[str, float]:
         tip = self.body.mean_displacement("tip")

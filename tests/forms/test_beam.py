@@ -65,7 +65,7 @@ def tail_after(beams, system, load):
     dead = fem.Constant(beams.mesh, np.asarray(load, dtype=float))
     energy = beams.energy - beams.at_ends("tail", ufl.inner(dead, beams.function))
     system.set_energies([energy], [beams.tangent_correction])
-    newton = Newton(system, "test_beam_", before_tangent=beams.before_tangent)
+    newton = Newton(system, "test_beam_", before_tangent=beams.iterate.before_tangent)
     result = newton.solve(float(np.linalg.norm(load)))
     assert result.converged, result.reason
     return beams.end_values("tail", 0)
@@ -186,8 +186,8 @@ def test_tangent_correction_vanishes_where_the_last_iterate_is_the_present_one()
     beams = rib_of_two_cells()
     w = beams.function
     w.x.array[:] = 0.1 * np.random.default_rng(2).standard_normal(len(w.x.array))
-    beams.mark_converged()
-    beams.before_tangent(0)
+    beams.iterate.accept()
+    beams.iterate.before_tangent(0)
     direction = fem.Function(w.function_space)
     direction.x.array[:] = 1.0 + np.arange(len(w.x.array)) % 7
     form = compat.form(ufl.action(beams.tangent_correction, direction))
@@ -199,7 +199,7 @@ def test_tangent_correction_vanishes_where_the_last_iterate_is_the_present_one()
 
     assert largest() == 0.0
     w.x.array[:] *= 1.01
-    beams.before_tangent(1)
+    beams.iterate.before_tangent(1)
     assert largest() > 1.0
 
 

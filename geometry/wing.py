@@ -1,0 +1,175 @@
+"""The wing of the paper's Section 5.1: aerofoil-shaped pneumatic spar, ribs, skin, cables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+
+from morphing_wing.errors import InputError, require
+
+from .aerofoil import Aerofoil
+from .rib import RibGeometry
+
+_LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_thickness",
+            "side_thickness", "nose_length", "foot_height", "foot_width", "tail_bond_length")
+
+
+@dataclass(frozen=True)
+class WingGeometry:
+    """Dimensions of the wing in mm (paper: Section 5.1; its symbols below).
+
+    Attributes
+    ----------
+    chord
+        Chord length; the paper is silent, 150 mm makes the chambers about 6 mm high.
+    aerofoil
+        NACA four digits.
+    spar_fraction
+        Part of the chord that the spar takes, from the leading edge.
+    n_cells
+        Chambers in each row, N.
+    cavity_length, wall_length
+        Chamber and wall along the span, l_c and l_s; both end walls are ``wall_length`` thick.
+    top_thickness, middle_thickness
+        Walls above and below the chambers, h_t, and layer between the rows.
+    side_thickness
+        Rear wall, w_s2.
+    nose_length
+        Solid nose in front of the chambers.
+    skin_thickness
+        Skin around the trailing edge's pocket; None: no skin. It is as long as the spar, closed
+        where its two sides meet, open at the tip, clamped with the root section.
+    rib
+        Pantographic rib; None: no ribs.
+    rib_positions
+        Where each rib stands, as a part of the span.
+    foot_height, foot_width
+        Foot plate of each rib on the spar's rear wall, along y and z. None: as high and as wide
+        as the rib.
+    tail_bond_length
+        Chordwise length of the rigid tail block that is glued to both skins behind the rib's end.
+    glue_stiffness
+        Traction per separation of the glue in N/mm^3.
+    cable_guide
+        From a rib's tail to the guide of its cable (dx, dy, dz).
+    """
+
+    chord: float = 150.0
+    aerofoil: str = "0012"
+    spar_fraction: float = 0.5
+    n_cells: int = 18
+    cavity_length: float = 5.0
+    wall_length: float = 2.0
+    top_thickness: float = 2.0
+    middle_thickness: float = 1.5
+    side_thickness: float = 2.0
+    nose_length: float = 5.0
+    skin_thickness: float | None = 1.0
+    rib: RibGeometry | None = field(default_factory=RibGeometry.prototype)
+    rib_positions: tuple[float, ...] = (1 / 6, 1 / 2, 5 / 6)
+    foot_height: float | None = None
+    foot_width: float | None = None
+    tail_bond_length: float = 6.0
+    glue_stiffness: float = 50.0
+    cable_guide: tuple[float, float, float] = (0.0, -100.0, 0.0)
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be built."""
+        names = {f.name for f in fields(self)}
+        for name in names & set(_LENGTHS):
+            value = getattr(self, name)
+            if value is None and name.startswith("foot_"):
+                continue
+            require(_is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
+        ok = isinstance(self.n_cells, (int, np.integer)) and self.n_cells >= 1
+        require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
+        ok = _is_number(self.spar_fraction) and 0.1 <= self.spar_fraction <= 0.9
+        require(ok, "spar_fraction", self.spar_fraction, "", "between 0.1 and 0.9")
+        ok = _is_number(self.glue_stiffness) and self.glue_stiffness > 0
+        require(ok, "glue_stiffness", self.glue_stiffness, "N/mm^3", "greater than 0 N/mm^3")
+        self._check_chambers()
+        if self.skin_thickness is not None:
+            self._check_skin()
+        if self.rib is not None:
+            self._check_ribs(self.rib)
+
+    @classmethod
+    def prototype(cls, **changes: object) -> WingGeometry:
+        """Return the paper's prototype (Section 5.1), with changes."""
+        return cls(**changes)  # type: ignore[arg-type]
+
+    @property
+    def section(self) -> Aerofoil:
+        """The aerofoil at its chord."""
+        return Aerofoil(self.aerofoil, self.chord)
+
+    @property
+    def span(self) -> float:
+        """Span in mm: every chamber with its walls, an end wall on both sides."""
+        return self.n_cells * (self.cavity_length + self.wall_length) + self.wall_length
+
+    @property
+    def spar_end(self) -> float:
+        """Chordwise end of the spar in mm: where ribs are glued."""
+        return self.spar_fraction * self.chord
+
+    @property
+    def cavity_end(self) -> float:
+        """Chordwise end of the chambers in mm."""
+        return self.spar_end - self.side_thickness
+
+    @property
+    def pocket_end(self) -> float:
+        """Chordwise place in mm where the two sides of the skin meet."""
+        if self.skin_thickness is None:
+            raise InputError("skin_thickness = None: must be a length for a pocket to end")
+        return self.section.x_where_half_thickness(self.skin_thickness, front=False)
+
+    def rib_roots(self) -> np.ndarray:
+        """Return the root of each rib, shape (n_ribs, 3), mm."""
+        y = float(self.section.camber(self.spar_end))
+        return np.array([(self.spar_end, y, part * self.span) for part in self.rib_positions])
+
+    def foot(self) -> tuple[float, float]:
+        """Return height and width in mm of a rib's foot plate."""
+        assert self.rib is not None
+        height = self.foot_height or self.rib.height + self.rib.pivot_diameter
+        width = self.foot_width or 2.0 * self.rib.spacing + self.rib.shaft_thickness
+        return height, width
+
+    def _check_chambers(self) -> None:
+        section, half = self.section, self.middle_thickness / 2.0
+        ok = self.nose_length < self.cavity_end - 1.0
+        require(ok, "nose_length", self.nose_length, "mm",
+                f"less than {self.cavity_end - 1.0:.4g} mm, or no chamber fits in the spar")
+        ends = np.array([self.nose_length, self.cavity_end])
+        room = float(section.half_thickness(ends).min()) - half
+        require(self.top_thickness < room - 0.1, "top_thickness", self.top_thickness, "mm",
+                f"less than {room - 0.1:.4g} mm, or the chambers are taller than the aerofoil")
+
+    def _check_skin(self) -> None:
+        value = self.skin_thickness
+        ok = _is_number(value) and 0 < value < self.top_thickness
+        require(ok, "skin_thickness", value, "mm",
+                f"greater than 0 mm and less than top_thickness = {self.top_thickness:g} mm")
+        ok = self.pocket_end > self.spar_end + 1.0
+        require(ok, "skin_thickness", value, "mm", "so thin that a pocket remains behind the spar")
+
+    def _check_ribs(self, rib: RibGeometry) -> None:
+        ok = all(_is_number(p) and 0 < p < 1 for p in self.rib_positions) and self.rib_positions
+        require(bool(ok), "rib_positions", list(self.rib_positions), "",
+                "one or more parts of the span between 0 and 1")
+        end = self.chord if self.skin_thickness is None else self.pocket_end
+        room = end - self.spar_end
+        require(rib.length < room, "rib.n_cells", rib.n_cells, "",
+                f"at most {int(room / rib.pitch - 1e-9)}, or the rib is longer than the pocket "
+                f"({rib.length:.4g} mm against {room:.4g} mm)")
+        ok = len(self.cable_guide) == 3 and all(_is_number(c) for c in self.cable_guide)
+        require(bool(ok) and any(self.cable_guide), "cable_guide", list(self.cable_guide), "mm",
+                "three lengths, not all zero")
+
+
+def _is_number(value: object) -> bool:
+    number = isinstance(value, (int, float, np.integer, np.floating))
+    return number and not isinstance(value, bool) and bool(np.isfinite(value))

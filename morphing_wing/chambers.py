@@ -1,0 +1,42 @@
+"""Pressure in the rows of chambers: only rows with a load cost anything."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from dolfinx import fem
+
+from . import compat
+from .elastomer import Elastomer
+
+ROWS = {"upper_MPa": "upper_chambers", "lower_MPa": "lower_chambers"}
+
+
+class Chambers:
+    """Uniform pressure in each row of chambers in use.
+
+    Attributes
+    ----------
+    pressures
+        Of each load name the constants in MPa that carry it.
+    potential
+        Minus the work ``P V`` of all rows in use, a UFL functional; 0 if none is in use.
+    """
+
+    def __init__(self, body: Elastomer, in_use: Sequence[str]) -> None:
+        self._comm = body.comm
+        self.pressures: dict[str, list[Any]] = {}
+        self.potential: Any = 0
+        self._volumes = {}
+        for name in (name for name in in_use if name in ROWS):
+            pressure = fem.Constant(body.mesh, compat.scalar_type(0.0))
+            volume = body.chamber_volume(ROWS[name])
+            self.potential = self.potential - pressure * volume
+            self.pressures[name] = [pressure]
+            self._volumes[name] = compat.form(volume)
+
+    def volumes(self) -> dict[str, float]:
+        """Return the enclosed volume in mm^3 of each row in use."""
+        return {name: compat.assemble_scalar(self._comm, volume)
+                for name, volume in self._volumes.items()}

@@ -1,0 +1,263 @@
+"""The whole wing as a scene: elastomer, ribs, glue and cables in one set of equations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from dolfinx import fem
+from mpi4py import MPI
+
+from . import compat
+from .angles import deflection_line, rotation_about_x, rotation_about_z
+from .chambers import Chambers
+from .elastomer import Elastomer
+from .elements import element as element_named
+from .forms.beam import displacement
+from .forms.cable import cable_potential
+from .frame import BeamFrame, turned_x
+from .geometry.frame import join
+from .geometry.wing import WingGeometry
+from .geometry.wing_mesh import WingMeshing, wing_mesh
+from .glue import Glue, with_glued_faces
+from .inertia import Regularisation
+from .iterate import Iterate
+from .materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
+from .newton import Newton
+from .path import Path, State
+from .pocket import Pocket
+from .scene import Scene, choose_fidelity
+from .stepping import Stepping
+from .system import Block, EquilibriumSystem
+
+
+@dataclass(frozen=True)
+class WingFidelity:
+    """One rung of the wing's ladder: a mesh and an element."""
+
+    meshing: WingMeshing
+    element: str
+
+
+FIDELITIES = {
+    "draft": WingFidelity(WingMeshing.fine(), "Q1 reduced"),
+    "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
+}
+
+
+class Wing(Scene):
+    """A wing clamped at its root section.
+
+    Parameters
+    ----------
+    geometry
+        Dimensions; ``skin_thickness=None`` and ``rib=None`` leave out skin and ribs.
+    elastomer, resin
+        Materials of spar and skin, and of the ribs.
+    fidelity
+        "draft" (linear hexahedra, fine mesh) or "standard" (quadratic hexahedra); frame ribs.
+    comm
+        Communicator; all ranks of MPI by default.
+    meshing, element
+        Replace those of the fidelity.
+    options_prefix
+        Prefix of this scene's PETSc options.
+
+    Examples
+    --------
+    >>> wing = Wing(WingGeometry.prototype(), fidelity="draft")     # doctest: +SKIP
+    >>> wing.actuate(upper=0.025, cable=0.2).save("output")         # doctest: +SKIP
+    """
+
+    name = "wing"
+    load_names = ("upper_MPa", "lower_MPa", "cable_N")
+
+    def __init__(
+        self,
+        geometry: WingGeometry,
+        elastomer: Yeoh = DRAGON_SKIN_30,
+        resin: Elastic = RESIN,
+        fidelity: str = "draft",
+        comm: MPI.Comm | None = None,
+        meshing: WingMeshing | None = None,
+        element: str | None = None,
+        options_prefix: str = "wing_",
+    ) -> None:
+        rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
+        super().__init__(fidelity, comm)
+        self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
+        self._options_prefix = options_prefix
+        self.ribs: BeamFrame | None = None
+        self.glue: Glue | None = None
+        grid = wing_mesh(geometry, meshing or rung.meshing)
+        if geometry.rib is not None:
+            grid = with_glued_faces(grid, geometry)
+        self.body = Elastomer(
+            self.comm, grid, elastomer, element_named(element or rung.element), clamped=("root",)
+        )
+        blocks, sharing = [self.body.block], []
+        if geometry.rib is not None:
+            frames = [geometry.rib.frame().placed(root) for root in geometry.rib_roots()]
+            self.ribs = BeamFrame(self.comm, join(frames), resin)
+            self.glue = Glue(self.body, self.ribs, geometry)
+            blocks += [Block(self.ribs.function), self.glue.block]
+            sharing = [self.glue.shared(of=1)]
+        self.system = EquilibriumSystem(self.comm, blocks, sharing)
+        self.pocket = Pocket(self.body, self.ribs, geometry) if self.has_skin else None
+        self.stepping = Stepping(predict=True)
+
+    @property
+    def has_skin(self) -> bool:
+        """Whether the wing has a skin around its pocket."""
+        return self.geometry.skin_thickness is not None
+
+    def actuate(
+        self,
+        upper: float | Sequence[float] | None = None,
+        lower: float | Sequence[float] | None = None,
+        cable: float | Sequence[float] | None = None,
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[..., None] | None = None,
+    ) -> Path:
+        """Inflate chambers and pull cables.
+
+        Parameters
+        ----------
+        upper, lower
+            Pressures in MPa in the two rows of chambers: numbers, sequences or None.
+        cable
+            Tension in N in the cable of each rib: a number, a sequence or None.
+        on_step
+            Called on every rank after each converged step.
+
+        Returns
+        -------
+        Path
+            All converged steps. ``contact`` in its table is true from where the skin passes
+            through itself or a rib: contact forces are not modelled.
+
+        Raises
+        ------
+        InputError
+            If a load is not finite, or cables are pulled in a wing without ribs.
+        """
+        return self.follow(
+            {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}, on_step, on_cut
+        )
+
+    # -- for the pictures ---------------------------------------------------------------------
+
+    @property
+    def functions(self) -> dict[str, fem.Function]:
+        """Displacement in mm by name."""
+        found = {"elastomer": self.body.displacement()}
+        return found | ({"ribs": self.ribs.function} if self.ribs else {})
+
+    def description(self) -> dict[str, Any]:
+        """Return all parameters, for `summary.json`."""
+        return {
+            "geometry": asdict(self.geometry),
+            "elastomer": asdict(self.elastomer),
+            "resin": asdict(self.resin),
+            "element": self.body.element.name,
+        }
+
+    # -- what the scene is made of ------------------------------------------------------------
+
+    def _iterates(self) -> list[Iterate]:
+        owners = (self.body, self.ribs, self.glue)
+        return [owner.iterate for owner in owners if owner is not None and owner.iterate]
+
+    def _newton(self) -> Newton:
+        return Newton(
+            self.system,
+            self._options_prefix,
+            regularisation=self._regularisation(),
+            expected_negative=self.body.n_pressures(),
+            max_iterations=60 if self.has_skin else 25,
+            before_tangent=self.before_tangent,
+        )
+
+    def _regularisation(self) -> Regularisation | None:
+        if not self.has_skin:
+            return None
+        n = self.body.block.n_owned
+        mass = np.zeros(self.system.n_owned)
+        mass[:n] = self.body.region_mass("skin")
+        displacements = np.zeros(self.system.n_owned, dtype=bool)
+        displacements[:n] = True
+        return Regularisation(mass, displacements)
+
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+        self._chambers = Chambers(self.body, in_use)
+        self.loads = dict(self._chambers.pressures)
+        body = self.body.energy + self._chambers.potential
+        if self.ribs is None:
+            return [body], [self.body.tangent_correction]
+        ribs = self.ribs.energy
+        if "cable_N" in in_use:
+            tension = fem.Constant(self.ribs.mesh, compat.scalar_type(0.0))
+            self.loads["cable_N"] = [tension]
+            guide = fem.Constant(
+                self.ribs.mesh, np.array(self.geometry.cable_guide, dtype=compat.scalar_type)
+            )
+            reach = cable_potential(1.0, displacement(self.ribs.function), guide)
+            self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
+            ribs = ribs + self.ribs.at_ends("tail", tension * reach)
+        return [body + self.glue.energy, ribs], [
+            part.tangent_correction for part in (self.body, self.ribs, self.glue)
+        ]
+
+    def _stored(self) -> list[Any]:
+        if self.ribs is None:
+            return [self.body.energy]
+        return [self.body.energy + self.glue.energy, self.ribs.energy]
+
+    def _conjugates(self) -> dict[str, float]:
+        found = self._chambers.volumes()
+        if "cable_N" in self.loads:
+            found["cable_N"] = -compat.assemble_scalar(self.comm, self._cable_length)
+        return found
+
+    # -- what is measured ---------------------------------------------------------------------
+
+    def _measures(self) -> dict[str, float]:
+        span = np.array([0.0, 0.0, self.geometry.span])
+        found = {
+            "span_angle_deg": rotation_about_x(self.body.mean_normal("tip")),
+            "span_line_deg": deflection_line(self.body.mean_displacement("tip"), span),
+        }
+        spar = rotation_about_z(self.body.mean_normal("rear_wall"))
+        ribs = self._rib_measures(spar) if self.ribs is not None else {}
+        if self.has_skin:
+            edge = self.body.mean_normal("trailing_edge")
+            rear = self.body.mean_displacement("rear_wall")
+            chord = np.array([self.geometry.chord - self.geometry.spar_end, 0.0, 0.0])
+            line = chord + self.body.mean_displacement("trailing_edge") - rear
+            found["chord_angle_deg"] = rotation_about_z(edge) - spar
+            found["chord_line_deg"] = rotation_about_z(line) - spar
+        elif ribs:
+            count = len(self.geometry.rib_positions)
+            for kind in ("rotation", "line"):
+                values = [ribs[f"rib_{i + 1}_{kind}_deg"] for i in range(count)]
+                name = "chord_angle_deg" if kind == "rotation" else "chord_line_deg"
+                found[name] = float(np.mean(values))
+        found |= ribs
+        if self.pocket is not None:
+            found["gap_mm"] = self.pocket.smallest_gap()
+            found["contact"] = float(found["gap_mm"] < 0.0)
+        return found
+
+    def _rib_measures(self, spar: float) -> dict[str, float]:
+        """Return of each rib its tail's rotation and its deflection line, against the spar."""
+        found = {}
+        length = np.array([self.geometry.rib.length, 0.0, 0.0])
+        for i in range(len(self.geometry.rib_positions)):
+            root, tail = (self.ribs.end_values(kind, i) for kind in ("root", "tail"))
+            rotation = rotation_about_z(turned_x(tail[3:])) - spar
+            found[f"rib_{i + 1}_rotation_deg"] = rotation
+            line = rotation_about_z(length + tail[:3] - root[:3]) - spar
+            found[f"rib_{i + 1}_line_deg"] = line
+        return found
