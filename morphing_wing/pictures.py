@@ -27,7 +27,7 @@ __all__ = ["NoRenderer", "caption", "render", "render_strip"]
 Box = tuple[int, int, int, int]  # x, y from below, width, height in pixels
 
 WIDTH, HEIGHT = 1600, 1000  # pixels
-_TOP, _BOTTOM, _MARGIN = 110, 110, 24  # pixels for title, colour bar, and around each view
+_TOP, _BOTTOM, _MARGIN, _NOTE = 100, 100, 14, 46  # title, colour bar, around and above a view
 # From silicone at rest to warm and dark; lightness falls all the way, shading stays visible.
 COLOUR_MAP = LinearSegmentedColormap.from_list(
     "silicone", ["#f2efe9", "#f8d58a", "#f2a04e", "#dc6040", "#a92c55", "#681d61"])
@@ -112,7 +112,7 @@ def _draw_state(
         figure = _figure(f"{scene.name.capitalize()}:  {caption(state)}", state.contact)
         for cut, box in zip(cuts, _page(view, cuts), strict=True):
             low, high = view.extent(cut)
-            image = view.image(box[2:], _scale(high - low, box), colours, cut)
+            image = view.image(_inside(box), _scale(high - low, box), colours, cut)
             _place(figure, image, box, _note(cut), "#555")
         _colour_bar(figure, view, colours)
         write_whole(file, lambda name: figure.savefig(name, format="png"))
@@ -128,7 +128,7 @@ def _draw_strip(drawn: list, scene: Any, file: str | os.PathLike) -> None:
     with matplotlib.rc_context(STYLE):
         figure = _figure(f"{scene.name.capitalize()}:  from load to load, on one scale", False)
         for view, box, (*_, state) in zip(views, boxes, drawn, strict=True):
-            image = view.image(box[2:], _scale(high - low, box), colours,
+            image = view.image(_inside(box), _scale(high - low, box), colours,
                                centre=0.5 * (low + high), outline=False)
             _place(figure, image, box, caption(state, "\n"), _RED if state.contact else "#555")
         _colour_bar(figure, views[-1], colours)
@@ -176,16 +176,22 @@ def _grid(extent: np.ndarray, count: int) -> list[Box]:
 
 
 def _scale(extent: np.ndarray, box: Box) -> float:
-    """Return mm per pixel that let a box hold an extent, with a margin and room for a caption."""
-    return max(extent[0] / (box[2] - 2 * _MARGIN), extent[1] / (box[3] - 2 * _MARGIN - 30))
+    """Return mm per pixel that let a box hold an extent, with a margin all round."""
+    width, height = _inside(box)
+    return max(extent[0] / (width - 2 * _MARGIN), extent[1] / (height - 2 * _MARGIN))
+
+
+def _inside(box: Box) -> tuple[int, int]:
+    return box[2], box[3] - _NOTE
 
 
 def _place(figure: Figure, image: np.ndarray, box: Box, note: str, colour: str) -> None:
-    x, y, width, height = box
+    x, y, (width, height) = *box[:2], _inside(box)
     axes = figure.add_axes((x / WIDTH, y / HEIGHT, width / WIDTH, height / HEIGHT))
     axes.imshow(image)
     axes.axis("off")
-    axes.text(0.02, 0.99, note, transform=axes.transAxes, va="top", color=colour, fontsize=13)
+    figure.text((x + 16) / WIDTH, (y + height + _NOTE - 4) / HEIGHT, note, va="top", color=colour,
+                fontsize=13, linespacing=1.15)
 
 
 def _colours(views: list[View]) -> dict[str, Any]:

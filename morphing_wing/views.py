@@ -108,7 +108,7 @@ class View:
                 outside = _surface(grid, deformed=False, subdivision=0).connectivity("largest")
                 plotter.add_mesh(_edges(outside), **_OUTLINE)  # without the chambers' edges
         for name, grid in self.lines.items():
-            self._add_lines(plotter, name, grid, colours, cut)
+            self._add_lines(plotter, name, grid, colours, cut, outline)
         for cable in self.drawing.cables if cut is None else ():
             plotter.add_mesh(pyvista.lines_from_points(np.asarray(cable, dtype=float)),
                              color="black", line_width=2.5)
@@ -163,7 +163,7 @@ class View:
 
     def _add_lines(
         self, plotter: pyvista.Plotter, name: str, grid: pyvista.UnstructuredGrid, colours: dict,
-        cut: Cut | None,
+        cut: Cut | None, outline: bool,
     ) -> None:
         radius = self.drawing.radius.get(name, 0.6)
         look: dict[str, Any] = {"smooth_shading": True, "specular": 0.3}
@@ -173,7 +173,9 @@ class View:
             grid = grid.extract_cells(keep)
         else:
             look |= {"scalars": "magnitude", "show_scalar_bar": False, **colours}
-            plotter.add_mesh(tubes(grid, 0.15 * np.min(radius), deformed=False), color="#aab3bd")
+            if outline:
+                thin = 0.15 * np.min(radius)
+                plotter.add_mesh(tubes(grid, thin, deformed=False), color="#aab3bd")
         if grid.n_cells:
             plotter.add_mesh(tubes(grid, radius, deformed=True), **look)
 

@@ -10,7 +10,7 @@ from mpi4py import MPI
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "results"))
 
 import pyvista
-from fake_scenes import bent, box, line, spar_path
+from fake_scenes import bent, box, line, spar_path, turned
 
 from morphing_wing.errors import InputError
 from morphing_wing.fields import FieldGrid
@@ -30,8 +30,11 @@ def folder(tmp_path_factory):
 
 def filled(make, comm, **options):
     function = make(comm, **options)
-    part = function.sub(0) if options.get("rotations") else function
-    part.interpolate(lambda x: bent(x, 0.7, 3.0) + 0.1 * x[0] * x[1])
+
+    def motion(x):
+        return bent(x, 0.7, 3.0) + 0.1 * x[0] * x[1]
+
+    function.interpolate(turned(motion) if options.get("rotations") else motion)
     return FieldGrid(function)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dolfinx
 import numpy as np
-import ufl
 from mpi4py import MPI
 
 from morphing_wing import compat
@@ -56,16 +55,18 @@ def box(comm=MPI.COMM_WORLD, degree=2, cells=(2, 3, 4), size=(1.0, 2.0, 3.0)):
 
 
 def line(comm=MPI.COMM_WORLD, points=None, cells=None, rotations=False):
-    """Return a quadratic displacement on intervals, or one mixed with a rotation vector."""
+    """Return a quadratic displacement on intervals, or one with a rotation vector behind it."""
     if points is None:
         t = np.linspace(0.0, 1.0, 5)
         points = np.stack([10 * t, 0 * t, 0 * t], axis=1)
         cells = np.stack([np.arange(4), np.arange(1, 5)], axis=1)
     mesh = compat.create_mesh(comm, "interval", cells, points)
-    if not rotations:
-        return dolfinx.fem.Function(compat.vector_space(mesh, 2))
-    vector = ufl.VectorElement("Lagrange", mesh.ufl_cell(), 2, dim=3)
-    return dolfinx.fem.Function(dolfinx.fem.FunctionSpace(mesh, ufl.MixedElement(vector, vector)))
+    return dolfinx.fem.Function(compat.vector_space(mesh, 2, 6 if rotations else 3))
+
+
+def turned(motion):
+    """Return a displacement and rotations of a million radians, which no drawing must show."""
+    return lambda x: np.concatenate([motion(x), 1e6 + 0 * x])
 
 
 def bent(x, angle, length):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dolfinx
 import numpy as np
-from fake_scenes import FakeScene, bent, line
+from fake_scenes import FakeScene, bent, line, turned
 from mpi4py import MPI
 
 from morphing_wing import compat
@@ -77,8 +77,7 @@ def wing_path(loads=(0.0, 0.0125, 0.025), comm=MPI.COMM_WORLD):
 
     def fields(p):
         u.interpolate(lambda x: motion(x, p))
-        r.sub(0).interpolate(lambda x: motion(x, p))
-        r.sub(1).interpolate(lambda x: 0 * x + 1e3)
+        r.interpolate(turned(lambda x: motion(x, p)))
         return {"elastomer": u.x.array.copy(), "ribs": r.x.array.copy()}
 
     states = [

@@ -1,7 +1,7 @@
 import matplotlib.image
 import numpy as np
 import pytest
-from fake_scenes import FakeScene, box, line, spar_path
+from fake_scenes import FakeScene, box, line, spar_path, turned
 from fake_wing import wing_path
 
 from morphing_wing import pictures, renderer, views
@@ -93,7 +93,7 @@ def test_tubes_have_their_radius_about_the_deformed_axis():
 def test_scene_of_lines_alone_is_coloured_by_displacement(tmp_path):
     f = line(rotations=True)
     scene = FakeScene("rib", {"ribs": f}, {}, "torque_Nmm")
-    f.sub(0).interpolate(lambda x: np.stack([0 * x[0], -0.02 * x[0] ** 2, 0 * x[0]]))
+    f.interpolate(turned(lambda x: np.stack([0 * x[0], -0.02 * x[0] ** 2, 0 * x[0]])))
     state = State({"torque_Nmm": 5.0}, {"chord_angle_deg": 9.0}, 4, 1, 1, 0, 0.1, True,
                   {"ribs": f.x.array.copy()})
     path = Path([state], scene, True, "", 1.0)
