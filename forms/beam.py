@@ -42,32 +42,18 @@ def beam_energy(w: Any, axes: Any, stiffness: Any) -> Any:
     stiffness
         EA, GA2, GA3 (N), GJ, EI2, EI3 (N mm^2) of each cell, 6 components.
     """
-    measures = _measures(_line(w, axes), axes)
+    measures = [part[i] for part in beam_strains(w, axes) for i in range(3)]
     return sum(stiffness[i] * measures[i] ** 2 for i in range(6)) / 2
 
 
 def beam_strains(w: Any, axes: Any) -> tuple[Any, Any]:
     """Return axial and shear strains Gamma, and torsion and curvatures K in 1/mm."""
-    measures = _measures(_line(w, axes), axes)
-    return ufl.as_vector(measures[:3]), ufl.as_vector(measures[3:])
-
-
-def _line(w: Any, axes: Any) -> Any:
-    """Return what the strains depend on: theta, u' and theta', 9 components."""
-    theta, slope = rotation_vector(w), ufl.dot(ufl.grad(w), axes[0, :])
-    return ufl.as_vector([theta[i] for i in range(3)] + [slope[i] for i in range(6)])
-
-
-def _measures(line: Any, axes: Any) -> list[Any]:
-    """Return Gamma and K, 6 scalars."""
-    theta, u_prime, theta_prime = (
-        ufl.as_vector([line[first + i] for i in range(3)]) for first in (0, 3, 6)
-    )
-    e1 = axes[0, :]
+    theta, e1 = rotation_vector(w), axes[0, :]
+    u_prime, theta_prime = ufl.dot(ufl.grad(displacement(w)), e1), ufl.dot(ufl.grad(theta), e1)
     # The difference before turning to local axes is exactly zero in the reference state.
     strain = axes * (ufl.dot(ufl.transpose(rotation(theta)), e1 + u_prime) - e1)
     curvature = axes * ufl.dot(ufl.transpose(tangent_map(theta)), theta_prime)
-    return [strain[i] for i in range(3)] + [curvature[i] for i in range(3)]
+    return strain, curvature
 
 
 def displacement(w: Any) -> Any:
