@@ -4,7 +4,7 @@ import importlib
 import logging
 
 # First, as in every program: it prepares BLAS and MPI for what is loaded next.
-from morphing_wing import blas
+from morphing_wing import blas, renderer
 
 # isort: split
 import dolfinx
@@ -40,6 +40,11 @@ for name in (
     "morphing_wing.geometry",
 ):
     importlib.import_module(name)
+
+try:
+    renderer.choose_renderer()
+except renderer.NoRenderer as error:
+    print(f"setup: warning: no pictures: {error}")
 
 used = blas.describe()
 print(

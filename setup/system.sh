@@ -11,8 +11,10 @@ packages="python3-dolfinx python3-dolfinx-real python3-petsc4py-real python3-mpi
 # A BLAS that is several times faster than the reference one that PETSc would take otherwise. The
 # serial one: every MPI rank is one thread.
 packages="$packages libopenblas0-serial"
-# gmsh, and the X libraries that it and PyVista's off-screen pictures load.
+# gmsh, and the X libraries that it and PyVista load.
 packages="$packages python3-gmsh libgl1 libglu1-mesa libxrender1 libxcursor1 libxft2 libxinerama1"
+# EGL and Mesa's software renderer: pictures without a display or a graphics card.
+packages="$packages libegl1 libegl-mesa0 libgl1-mesa-dri"
 
 say() { echo "setup: $*"; }
 fail() { echo "setup: $*" >&2; exit 1; }
