@@ -53,7 +53,7 @@ def solve(
 ) -> int:
     """Solve a scene and write summary.json, table.csv, pictures and fields."""
     from morphing_wing.root import on_root
-    from morphing_wing.scene_file import read_scene
+    from morphing_wing.scene_file import located, read_scene
 
     comm = MPI.COMM_WORLD
     folder = pathlib.Path("output") / scene.stem if out is None else out
@@ -67,9 +67,10 @@ def solve(
 
     from morphing_wing.progress import Progress
 
-    built = file.build(comm)
     progress = Progress(comm)
-    path = file.run(built, on_step=progress, on_cut=progress.cut)
+    with located(str(scene)):
+        built = file.build(comm)
+        path = file.run(built, on_step=progress, on_cut=progress.cut)
     progress.end(path.converged, path.reason)
     path.save(folder)
     typer.echo(f"results are in {folder}")
@@ -107,6 +108,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings():
             warnings.showwarning = warn_in_one_line
             status = app(arguments or ["--help"], prog_name="morphing-wing", standalone_mode=False)
+        if status == INTERRUPTED:  # typer's own answer to Ctrl-C, which says nothing
+            raise KeyboardInterrupt
         return status if isinstance(status, int) else DONE
 
     return run_together(MPI.COMM_WORLD, command, explain)
@@ -120,8 +123,6 @@ def explain(problem: BaseException) -> tuple[int, str]:
         return BAD_INPUT, f"morphing-wing: {' '.join(problem.format_message().split())}"
     if isinstance(problem, (KeyboardInterrupt, typer.Abort)):
         return INTERRUPTED, "morphing-wing: interrupted"
-    if isinstance(problem, SystemExit):
-        return (problem.code if isinstance(problem.code, int) else UNEXPECTED), ""
     if os.environ.get("MORPHING_WING_DEBUG"):
         import traceback
 

@@ -34,7 +34,7 @@ from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
 
-__all__ = ["FIDELITIES", "SceneFile", "parse_scene", "read_scene"]
+__all__ = ["FIDELITIES", "SceneFile", "located", "parse_scene", "read_scene"]
 
 FIDELITIES = {
     "spar": ("draft", "standard"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import pydantic
 from pydantic import BeforeValidator, Field
 
 from morphing_wing.units import KINDS, quantity
@@ -36,35 +35,36 @@ def or_none(value: Any) -> Any:
 
 def load(kind: str) -> BeforeValidator:
     """Return a validator of a load: one value, a list, or evenly spaced points, ends included."""
-    example = KINDS[kind][1]
 
-    def steps(value: Any) -> tuple[float, ...]:
+    def read(value: Any) -> tuple[float, ...]:
         if isinstance(value, dict):
-            return evenly_spaced(value)
+            return evenly_spaced(value, kind)
         given = value if isinstance(value, list) else [value]
         if not given:
-            raise ValueError(f'must hold at least one value such as "{example}"')
+            raise ValueError(f'must hold at least one value such as "{KINDS[kind][1]}"')
         return tuple(quantity(item, kind) for item in given)
 
-    def evenly_spaced(table: dict[str, Any]) -> tuple[float, ...]:
-        if not {"to", "points"} <= set(table) <= {"from", "to", "points"}:
-            raise ValueError(f'must be written as {{ from = "...", to = "{example}", points = 5 }}')
-        points = table["points"]
-        if type(points) is not int or not 2 <= points <= MAX_POINTS:
-            raise ValueError(f"must have points as a whole number from 2 to {MAX_POINTS}")
-        last = quantity(table["to"], kind)
-        first = quantity(table["from"], kind) if "from" in table else 0.0
-        inner = (first + (last - first) * i / (points - 1) for i in range(1, points - 1))
-        return (first, *inner, last)
+    def read_and_check(value: Any) -> tuple[float, ...]:
+        values = read(value)
+        if kind == "force" and min(values) < 0.0:
+            raise ValueError("must not be negative, a cable cannot push")
+        return values
 
-    return BeforeValidator(steps)
+    return BeforeValidator(read_and_check)
 
 
-def pulling(tensions: tuple[float, ...]) -> tuple[float, ...]:
-    """Refuse tensions below zero: a cable cannot push."""
-    if min(tensions) < 0.0:
-        raise ValueError("must not be negative, a cable cannot push")
-    return tensions
+def evenly_spaced(table: dict[str, Any], kind: str) -> tuple[float, ...]:
+    """Read ``{ from = "0 kPa", to = "40 kPa", points = 9 }``; from zero where from is left out."""
+    if not {"to", "points"} <= set(table) <= {"from", "to", "points"}:
+        form = f'{{ from = "...", to = "{KINDS[kind][1]}", points = 5 }}'
+        raise ValueError(f"must be written as {form}")
+    points = table["points"]
+    if type(points) is not int or not 2 <= points <= MAX_POINTS:
+        raise ValueError(f"must have points as a whole number from 2 to {MAX_POINTS}")
+    last = quantity(table["to"], kind)
+    first = quantity(table["from"], kind) if "from" in table else 0.0
+    inner = (first + (last - first) * i / (points - 1) for i in range(1, points - 1))
+    return (first, *inner, last)
 
 
 Length = Annotated[float, measured("length")]
@@ -74,4 +74,4 @@ Modulus = Annotated[float, measured("pressure")]
 Point = Annotated[list[Length], Field(min_length=3, max_length=3)]
 Pressure = Annotated[tuple[float, ...], load("pressure")]
 Torque = Annotated[tuple[float, ...], load("torque")]
-Tension = Annotated[tuple[float, ...], pydantic.AfterValidator(pulling), load("force")]
+Tension = Annotated[tuple[float, ...], load("force")]
