@@ -177,7 +177,8 @@ def _finish(axes: Axes, table: pd.DataFrame, load: str, symbols: list[str]) -> N
     if "contact" in table and table["contact"].any():
         axes.plot([], [], color="#666", linestyle=(0, (4, 2)),
                   label="skin passes through itself or a rib: no contact forces")
-    axes.legend(loc="best", fontsize=9.5)
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(loc="best", fontsize=9.5)
 
 
 def _cost(axes: Axes, table: pd.DataFrame, load: str) -> None:

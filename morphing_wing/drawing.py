@@ -8,11 +8,14 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Cut", "Drawing", "default_drawing"]
+from morphing_wing.geometry.frame import Frame
+
+__all__ = ["Cut", "Drawing", "bar_radii", "default_drawing"]
 
 # From where each kind of scene is seen (x chordwise, y up, z along the span): spar and wing from
 # the front with the root at the left and the tip at the right, the rib from the tip's side.
 _EYES = {"spar": (-1.0, 0.55, 0.6), "wing": (-0.6, 0.7, 1.0), "rib": (0.25, 0.35, 1.0)}
+_LINKS = ("arm", "root", "tail")  # kinds of bars that only join
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,8 @@ class Cut:
 @dataclass(frozen=True)
 class Drawing:
     """How a scene wants to be drawn; a scene's ``drawing(state)`` may return one.
+
+    The scene is in that state when its ``drawing`` is called, on all ranks.
 
     Attributes
     ----------
@@ -65,3 +70,14 @@ def default_drawing(scene: Any) -> Drawing:
     """Return the drawing of a scene that says nothing: by its name and its multiplicity."""
     mirror = 0.0 if getattr(scene, "multiplicity", 1) == 2 else None
     return Drawing(eye=_EYES.get(scene.name, _EYES["spar"]), mirror_x=mirror)
+
+
+def bar_radii(frame: Frame) -> np.ndarray:
+    """Return each bar's radius in mm for `Drawing.radius`: the round bar of the same section area.
+
+    Rigid links (arms, root and tail stubs) have no size of their own: they are drawn as thin as the
+    thinnest real bar.
+    """
+    radius = np.sqrt(frame.stiffness(1.0, 0.0)[:, 0] / np.pi)  # E = 1 MPa: EA is the area
+    links = np.isin(frame.kinds, [i for i, n in enumerate(frame.names) if n in _LINKS])
+    return np.where(links, radius[~links].min(), radius)

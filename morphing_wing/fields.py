@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 import pathlib
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
 
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
     from morphing_wing.path import Path, State
 
-__all__ = ["FieldGrid", "save_path", "scene_grids"]
+__all__ = ["FieldGrid", "save_path", "scene_grids", "shown"]
 
 
 class FieldGrid:
@@ -37,6 +39,8 @@ class FieldGrid:
 
     Attributes
     ----------
+    function
+        As given.
     cell_name
         ``"hexahedron"``, ``"tetrahedron"`` or ``"interval"``.
     cells
@@ -44,7 +48,7 @@ class FieldGrid:
     """
 
     def __init__(self, function: Any) -> None:
-        self._function = function
+        self.function = function
         self._space, self._entries = _displacement_space(function)
         mesh = self._space.mesh
         self._comm = mesh.comm
@@ -91,7 +95,7 @@ class FieldGrid:
         (mm, shape (n_points, 3)) and ``stretch`` (largest principal stretch, mean over the cells
         that meet in the point), and cell array ``cell`` (its original number).
         """
-        values = np.asarray(self._function.x.array)[self._entries[: self._n_owned]]
+        values = np.asarray(self.function.x.array)[self._entries[: self._n_owned]]
         parts = self._comm.gather((self._global, values))  # owned values: ghosts may be stale
         if self._comm.rank != 0:
             return None
@@ -129,21 +133,31 @@ def _displacement_space(function: Any) -> tuple[Any, np.ndarray]:
     return space, entries.reshape(n_nodes, size)[:, :3]
 
 
+@contextmanager
+def shown(scene: Any, state: State) -> Iterator[None]:
+    """Put a scene into one of its states, and afterwards back to where it was. Collective.
+
+    So a scene may be led on from its last state after any other was drawn.
+    """
+    present = scene.unknowns()
+    scene.show(state)
+    try:
+        yield
+    finally:
+        scene.set_unknowns(present)
+
+
 def scene_grids(scene: Any, state: State) -> dict[str, pyvista.UnstructuredGrid | None]:
     """Return the grid of each of a scene's functions in a state (None off rank 0). Collective.
 
-    The gathering is prepared once for each function and kept with the scene. The scene itself stays
-    in the state in which it was: it may be led on after any of its states was drawn.
+    The gathering is prepared once for each function and kept with the scene.
     """
     kept = scene.__dict__.setdefault("_field_grids", {})
-    present = scene.unknowns()
-    scene.show(state)
-    for name, function in scene.functions.items():
-        if name not in kept or kept[name]._function is not function:
-            kept[name] = FieldGrid(function)
-    grids = {name: kept[name].grid() for name in scene.functions}
-    scene.set_unknowns(present)
-    return grids
+    with shown(scene, state):
+        for name, function in scene.functions.items():
+            if name not in kept or kept[name].function is not function:
+                kept[name] = FieldGrid(function)
+        return {name: kept[name].grid() for name in scene.functions}
 
 
 def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:

@@ -12,7 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 from morphing_wing.curves import STYLE
 from morphing_wing.drawing import Cut, Drawing, default_drawing
-from morphing_wing.fields import scene_grids
+from morphing_wing.fields import scene_grids, shown
 from morphing_wing.renderer import NoRenderer
 from morphing_wing.root import on_root, write_whole
 from morphing_wing.views import View
@@ -57,8 +57,7 @@ def render(scene: Any, state: State, file: str | os.PathLike) -> pathlib.Path:
     NoRenderer
         On all ranks, where this machine cannot draw in 3D.
     """
-    grids = scene_grids(scene, state)
-    drawing = _drawing(scene, state)
+    grids, drawing = _seen(scene, state)
     on_root(scene.comm, lambda: _draw_state(grids, drawing, scene, state, file))
     return pathlib.Path(file)
 
@@ -77,7 +76,7 @@ def render_strip(path: Path, file: str | os.PathLike, most: int = 4) -> pathlib.
     """
     chosen = np.unique(np.linspace(0, len(path) - 1, min(most, len(path))).round().astype(int))
     states = [path[int(i)] for i in chosen]
-    drawn = [(scene_grids(path.scene, s), _drawing(path.scene, s), s) for s in states]
+    drawn = [(*_seen(path.scene, state), state) for state in states]
     on_root(path.scene.comm, lambda: _draw_strip(drawn, path.scene, file))
     return pathlib.Path(file)
 
@@ -98,8 +97,11 @@ def caption(state: State, line_break: str = ":  ") -> str:
     return line_break.join(part for part in parts if part)
 
 
-def _drawing(scene: Any, state: State) -> Drawing:
-    return scene.drawing(state) if hasattr(scene, "drawing") else default_drawing(scene)
+def _seen(scene: Any, state: State) -> tuple[dict, Drawing]:
+    """Return grids and drawing of a state; the scene is in that state when it is asked."""
+    with shown(scene, state):
+        drawing = scene.drawing(state) if hasattr(scene, "drawing") else default_drawing(scene)
+        return scene_grids(scene, state), drawing
 
 
 def _draw_state(
