@@ -70,6 +70,7 @@ def solve(
     progress = Progress(comm)
     with located(str(scene)):
         built = file.build(comm)
+        typer.echo(f"{file.scene}, {file.fidelity}: {built.dofs} unknowns on {comm.size} rank(s)")
         path = file.run(built, on_step=progress, on_cut=progress.cut)
     progress.end(path.converged, path.reason)
     path.save(folder)
