@@ -15,7 +15,7 @@ __all__ = ["Cut", "Drawing", "bar_radii", "default_drawing"]
 # From where each kind of scene is seen (x chordwise, y up, z along the span): spar and wing from
 # the front with the root at the left and the tip at the right, the rib from the tip's side.
 _EYES = {"spar": (-1.0, 0.55, 0.6), "wing": (-0.6, 0.7, 1.0), "rib": (0.25, 0.35, 1.0)}
-_LINKS = ("arm", "root", "tail")  # kinds of bars that only join
+_BARS = ("shaft", "pivot", "centre_pivot")  # kinds with the section that one would measure
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,9 @@ def default_drawing(scene: Any) -> Drawing:
 def bar_radii(frame: Frame) -> np.ndarray:
     """Return each bar's radius in mm for `Drawing.radius`: the round bar of the same section area.
 
-    Rigid links (arms, root and tail stubs) have no size of their own: they are drawn as thin as the
-    thinnest real bar.
+    What only joins (bosses and sockets, arms, root and tail) may be stiff without being thick: it
+    is drawn as thin as the thinnest bar.
     """
     radius = np.sqrt(frame.stiffness(1.0, 0.0)[:, 0] / np.pi)  # E = 1 MPa: EA is the area
-    links = np.isin(frame.kinds, [i for i, n in enumerate(frame.names) if n in _LINKS])
-    return np.where(links, radius[~links].min(), radius)
+    bars = np.isin(frame.kinds, [i for i, name in enumerate(frame.names) if name in _BARS])
+    return np.where(bars, radius, radius[bars].min())

@@ -71,7 +71,11 @@ class View:
         clouds += [np.asarray(cable) for cable in self.drawing.cables if cut is None]
         right, up, _ = self._axes(cut)
         flat = np.concatenate(clouds) @ np.stack([right, up], axis=1)
-        return flat.min(axis=0), flat.max(axis=0)
+        thick = max((np.max(self._radius(name)) for name in self.lines), default=0.0)
+        return flat.min(axis=0) - thick, flat.max(axis=0) + thick
+
+    def _radius(self, name: str) -> float | np.ndarray:
+        return self.drawing.radius.get(name, 0.6)
 
     def image(
         self, size: tuple[int, int], scale: float, colours: dict[str, Any], cut: Cut | None = None,
@@ -165,7 +169,7 @@ class View:
         self, plotter: pyvista.Plotter, name: str, grid: pyvista.UnstructuredGrid, colours: dict,
         cut: Cut | None, outline: bool,
     ) -> None:
-        radius = self.drawing.radius.get(name, 0.6)
+        radius = self._radius(name)
         look: dict[str, Any] = {"smooth_shading": True, "specular": 0.3}
         if self.solids:
             look["color"] = "#4a5a6b"
@@ -215,10 +219,10 @@ def _surface(
 
 
 def _far_to_near(surface: pyvista.PolyData, forward: np.ndarray) -> pyvista.PolyData:
-    """Return a surface of triangles sorted for blending: OpenGL blends in the order of drawing."""
+    """Return a surface in triangles sorted for blending: OpenGL blends in the order of drawing."""
     import pyvista
 
-    surface = surface.compute_normals(
+    surface = surface.triangulate().compute_normals(
         split_vertices=True, feature_angle=30.0, cell_normals=False, consistent_normals=False)
     order = np.argsort(-(surface.cell_centers().points @ forward))
     triangles = surface.faces.reshape(-1, 4)[order]

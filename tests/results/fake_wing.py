@@ -59,10 +59,10 @@ def ribs(comm=MPI.COMM_WORLD, n=17):
     return line(comm, np.array(points), np.array(cells), rotations=True)
 
 
-def wing_path(loads=(0.0, 0.0125, 0.025), comm=MPI.COMM_WORLD):
+def wing_path(loads=(0.0, 0.0125, 0.025), comm=MPI.COMM_WORLD, degree=2):
     mesh = wing_mesh()
-    u = dolfinx.fem.Function(
-        compat.vector_space(compat.create_mesh(comm, "hexahedron", mesh.cells, mesh.points), 2))
+    domain = compat.create_mesh(comm, "hexahedron", mesh.cells, mesh.points)
+    u = dolfinx.fem.Function(compat.vector_space(domain, degree))
     r = ribs(comm)
     scene = FakeScene("wing", {"elastomer": u, "ribs": r}, {"elastomer": motion, "ribs": motion})
 

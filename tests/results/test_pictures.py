@@ -5,8 +5,9 @@ from fake_scenes import FakeScene, box, line, spar_path, turned
 from fake_wing import wing_path
 
 from morphing_wing import pictures, renderer, views
-from morphing_wing.drawing import Cut, Drawing
+from morphing_wing.drawing import Cut, Drawing, bar_radii
 from morphing_wing.fields import FieldGrid, scene_grids
+from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.mirror import mirrored
 from morphing_wing.path import Path, State
 from morphing_wing.pictures import caption, render_strip
@@ -90,6 +91,17 @@ def test_tubes_have_their_radius_about_the_deformed_axis():
     np.testing.assert_allclose(bars.point_data["magnitude"], 5.0, rtol=1e-5)
 
 
+@pytest.mark.parametrize("section, area", [("flush", 1.5 * 1.2), ("square", 1.2 * 1.2)])
+def test_bars_are_as_thick_as_shafts_and_pivots_and_links_no_thicker(section, area):
+    geometry = RibGeometry.validation(section=section)
+    frame = geometry.frame()
+    radius = bar_radii(frame)
+    np.testing.assert_allclose(np.pi * radius[frame.of_kind("shaft")] ** 2, area)
+    np.testing.assert_allclose(radius[frame.of_kind("pivot")], 0.5 * geometry.pivot_diameter)
+    for link in ("arm", "socket", "root", "tail"):
+        assert (radius[frame.of_kind(link)] == radius.min()).all()
+
+
 def test_scene_of_lines_alone_is_coloured_by_displacement(tmp_path):
     f = line(rotations=True)
     scene = FakeScene("rib", {"ribs": f}, {}, "torque_Nmm")
@@ -104,8 +116,9 @@ def test_scene_of_lines_alone_is_coloured_by_displacement(tmp_path):
     assert view.values().max() == pytest.approx(2.0)
 
 
-def test_wing_with_ribs_cables_and_two_cuts_is_drawn(tmp_path):
-    path = wing_path((0.0, 0.02))
+@pytest.mark.parametrize("degree", [1, 2])
+def test_wing_with_ribs_cables_and_two_cuts_is_drawn(tmp_path, degree):
+    path = wing_path((0.0, 0.02), degree=degree)
     path.render(tmp_path / "wing.png")
     ink = drawn(matplotlib.image.imread(tmp_path / "wing.png"))
     for part in (ink[150:880, :900], ink[150:490, 950:], ink[520:880, 950:]):
