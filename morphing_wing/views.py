@@ -172,7 +172,7 @@ class View:
         radius = self._radius(name)
         look: dict[str, Any] = {"smooth_shading": True, "specular": 0.3}
         if self.solids:
-            look["color"] = "#4a5a6b"
+            look["color"] = "#16407c"
             keep = np.nonzero(_kept(grid.cell_centers().points, cut))[0]
             grid = grid.extract_cells(keep)
         else:
