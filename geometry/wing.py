@@ -66,7 +66,9 @@ class WingGeometry:
     side_thickness: float = 2.0
     nose_length: float = 5.0
     skin_thickness: float | None = 1.0
-    rib: RibGeometry | None = field(default_factory=RibGeometry.prototype)
+    rib: RibGeometry | None = field(
+        default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
+    )
     rib_positions: tuple[float, ...] = (1 / 6, 1 / 2, 5 / 6)
     foot_height: float | None = None
     foot_width: float | None = None

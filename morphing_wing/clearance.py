@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import Delaunay, cKDTree
 
 SMALLEST_GAP = 0.3
 """Pairs of points closer than this (mm) in the undeformed wing meet by design: tail, bonds."""
-
-_NEIGHBOURS = 8
 
 
 class Clearance:
@@ -30,7 +28,7 @@ class Clearance:
         self, upper: np.ndarray, lower: np.ndarray, axes: np.ndarray, radius: float
     ) -> None:
         bodies = {"upper": upper, "lower": lower, "axes": axes}
-        self._rings = {"upper": _rings(upper), "lower": _rings(lower)}
+        self._triangles = {"upper": _triangles(upper), "lower": _triangles(lower)}
         self._pairs = []
         for a, b, offset in (("upper", "lower", 0.0), ("axes", "lower", radius),
                              ("axes", "upper", radius)):
@@ -48,8 +46,8 @@ class Clearance:
             Deformed points in the order of the undeformed ones.
         """
         bodies = {"upper": upper, "lower": lower, "axes": axes}
-        into_pocket = {"upper": _normals(upper, self._rings["upper"]),
-                       "lower": -_normals(lower, self._rings["lower"])}
+        into_pocket = {"upper": _normals(upper, self._triangles["upper"]),
+                       "lower": -_normals(lower, self._triangles["lower"])}
         smallest = np.inf
         for a, b, offset, free in self._pairs:
             if len(free):
@@ -61,18 +59,21 @@ class Clearance:
         return smallest
 
 
-def _rings(points: np.ndarray) -> np.ndarray:
-    """Return the neighbours of each point in the order of their direction from x to z."""
-    count = min(_NEIGHBOURS + 1, len(points))
-    _, near = cKDTree(points).query(points, k=count)
-    near = near[:, 1:]
-    away = points[near] - points[:, None]
-    order = np.argsort(np.arctan2(away[..., 2], away[..., 0]), axis=1)
-    return np.take_along_axis(near, order, axis=1)
+def _triangles(points: np.ndarray) -> np.ndarray:
+    """Return triangles between points, seen along y, all of which look along -y."""
+    plane = points[:, [0, 2]]
+    triangles = Delaunay(plane).simplices
+    a, b, c = (plane[triangles[:, i]] for i in range(3))
+    area = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    triangles[area < 0] = triangles[area < 0][:, ::-1]
+    return triangles[np.abs(area) > 1e-9]
 
 
-def _normals(points: np.ndarray, rings: np.ndarray) -> np.ndarray:
-    """Return the unit area vectors of the rings; a ring from x to z looks along -y."""
-    away = points[rings] - points[:, None]
-    area = np.cross(away, np.roll(away, -1, axis=1)).sum(axis=1)
-    return area / np.linalg.norm(area, axis=1, keepdims=True)
+def _normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return the unit normals at points, means of the triangles' area vectors."""
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    area = np.cross(b - a, c - a)
+    total = np.zeros_like(points)
+    for i in range(3):
+        np.add.at(total, triangles[:, i], area)
+    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)

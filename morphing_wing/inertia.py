@@ -47,8 +47,8 @@ class InertiaCholesky:
         Prefix of the PETSc options of the inner factorisation.
     """
 
-    raises = 10.0
-    largest_exponent = 9
+    raises = 100.0
+    largest_exponent = 5
 
     def __init__(
         self, regularisation: Regularisation | None, expected_negative: int, prefix: str
@@ -58,31 +58,38 @@ class InertiaCholesky:
         self.amount = 0.0
         self.negative_pivots = 0
         self.factorisations = 0
+        self.stale = True
+        self.shortened = False
         self._prefix = prefix
         self._inner: PETSc.PC | None = None
 
     # -- called by PETSc ----------------------------------------------------------------------
 
     def setUp(self, pc: PETSc.PC) -> None:
-        """Factorise the tangent, with more mass until its inertia is that of a minimum."""
+        """Factorise a new tangent, with more mass until its inertia is that of a minimum."""
+        # Adding mass changes the matrix, which PETSc would take for a new tangent.
+        if not self.stale:
+            return
+        self.stale = False
         _, self._matrix = pc.getOperators()
         self._diagonal = self._matrix.getDiagonal()
         self._factorise()
-        self._raise_while(lambda: self.surplus > 0)
-
-    def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Solve; shorten the step by more mass while it is too long."""
-        assert self._inner is not None
-        self._inner.apply(b, y)
         if self.regularisation is None:
             return
+        unit = self._unit()
+        while self.surplus > 0 and self.amount < unit * self.raises**self.largest_exponent:
+            self.amount = max(self.amount * self.raises, unit)
+            self._factorise()
 
-        def too_long() -> bool:
-            self._inner.apply(b, y)
-            return self._length(y) > self.regularisation.longest_step
-
-        if self._length(y) > self.regularisation.longest_step:
-            self._raise_while(too_long)
+    def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Solve, and shorten a step that is too long."""
+        assert self._inner is not None
+        self._inner.apply(b, y)
+        if self.regularisation is not None:
+            length = self._length(y)
+            self.shortened = length > self.regularisation.longest_step
+            if self.shortened:
+                y.scale(self.regularisation.longest_step / length)
 
     def destroy(self, pc: PETSc.PC | None = None) -> None:
         """Free the factors."""
@@ -103,21 +110,13 @@ class InertiaCholesky:
         if self.regularisation is not None and self.amount < 1e-3 * self._unit():
             self.amount = 0.0
 
-    def _raise_while(self, bad) -> None:
-        if self.regularisation is None:
-            return
-        unit = self._unit()
-        while bad() and self.amount < unit * self.raises**self.largest_exponent:
-            self.amount = max(self.amount * self.raises, unit)
-            self._factorise()
-
     def _unit(self) -> float:
-        """Return the mass factor that adds a ten-thousandth of the mean stiffness."""
+        """Return the smallest mass factor: it adds a ten-millionth of the mean stiffness."""
         if not hasattr(self, "_unit_value"):
             mass = self.regularisation.mass
             comm = self._matrix.comm.tompi4py()
             diagonal = np.abs(self._diagonal.getArray(readonly=True))[mass > 0]
-            self._unit_value = 1e-4 * comm.allreduce(diagonal.sum()) / comm.allreduce(mass.sum())
+            self._unit_value = 1e-7 * comm.allreduce(diagonal.sum()) / comm.allreduce(mass.sum())
         return self._unit_value
 
     def _length(self, y: PETSc.Vec) -> float:

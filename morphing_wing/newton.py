@@ -138,6 +138,7 @@ class Newton:
         if self._before_tangent is not None:
             self._before_tangent(snes.getIterationNumber())
         self.system.tangent()
+        self.factor.stale = True
 
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reason = PETSc.SNES.ConvergedReason
@@ -151,7 +152,7 @@ class Newton:
             # Roundoff of stiff parts bounds the residual from below; then the step is what counts.
             if unregularised and step <= 1e-11 * (x_norm + 1.0):
                 return reason.CONVERGED_SNORM_RELATIVE
-            self.factor.relax(1e3 if residual < 0.1 * self._smallest else 5.0)
+            self.factor.relax(1e3 if residual < 0.1 * self._smallest else 10.0)
         self._smallest = min(self._smallest, residual)
         return reason.ITERATING
 
