@@ -102,9 +102,10 @@ def test_none_switches_skin_and_ribs_off():
     assert bare.skin_thickness is None and bare.rib is None
 
 
-def test_ribs_of_a_wing_change_from_the_prototypes():
+def test_ribs_of_a_wing_change_from_those_of_its_preset():
     rib = wing('[geometry.rib]\nn_cells = 12\ncrossing_angle = "80 deg"').rib
-    assert rib == dataclasses.replace(RibGeometry.prototype(), n_cells=12, crossing_angle=80.0)
+    base = WingGeometry.prototype().rib
+    assert rib == dataclasses.replace(base, n_cells=12, crossing_angle=80.0)
 
 
 def test_guide_of_a_rib_is_a_point_in_mm():
