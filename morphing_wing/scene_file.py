@@ -133,7 +133,7 @@ def geometry_of(scene: str, keys: Keys) -> Any:
     preset = given.pop("preset", None)
     base = getattr(shape, preset)() if preset else None
     if isinstance(given.get("rib"), RibKeys):
-        given["rib"] = rib_of_wing(given["rib"], getattr(base or shape, "rib", None))
+        given["rib"] = rib_of_wing(given["rib"], (base or WingGeometry()).rib)
     with located("geometry", type(keys)):
         if base is not None:
             return dataclasses.replace(base, **given)
@@ -144,11 +144,11 @@ def geometry_of(scene: str, keys: Keys) -> Any:
         return shape(**given)
 
 
-def rib_of_wing(keys: RibKeys, base: RibGeometry | None) -> RibGeometry:
+def rib_of_wing(keys: RibKeys, base: RibGeometry) -> RibGeometry:
     """Return a wing's ribs: those of their own preset, else of the wing's, changed."""
     given = keys.given()
     preset = given.pop("preset", None)
-    base = getattr(RibGeometry, preset)() if preset else base or RibGeometry.prototype()
+    base = getattr(RibGeometry, preset)() if preset else base
     with located("geometry.rib", RibKeys):
         return dataclasses.replace(base, **given)
 
