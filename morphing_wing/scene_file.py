@@ -183,6 +183,8 @@ def loads_of(keys: Any, geometry: Any) -> dict[str, tuple[float, ...]]:
             raise InputError("torque and cable are both given: must be one of them")
         if "guide" in loads and "cable" not in steps:
             raise InputError("guide is given without cable: must stand with a cable")
+        if "guide" in loads and not any(loads["guide"]):
+            raise InputError("guide is the tail itself: must have a length other than 0 mm")
         if "cable" in steps and keys.scene == "wing" and geometry.rib is None:
             raise InputError("cable pulls at ribs: must be left out where rib is \"none\"")
     return loads

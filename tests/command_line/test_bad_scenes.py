@@ -93,7 +93,8 @@ BROKEN = {
     "guide of two lengths": (
         loads(RIB, 'cable = "1 N"\nguide = ["0 mm", "1 mm"]'), "loads.guide"),
     "guide at the tail": (
-        loads(RIB, 'cable = "1 N"\nguide = ["0 mm", "0 mm", "0 mm"]'), "guide = "),
+        loads(RIB, 'cable = "1 N"\nguide = ["0 mm", "0 mm", "0 mm"]'),
+        "loads: guide is the tail itself: must"),
     "pushing cable": (
         loads(RIB, 'cable = "-1 N"'), "loads.cable = '-1 N': must not be negative"),
     "zero thickness": (
