@@ -60,9 +60,8 @@ class WingMeshing:
 
     @classmethod
     def fine(cls) -> WingMeshing:
-        """Return several intervals a wall, for linear elements."""
-        return cls.of(cavity_width=10, pocket=14, cavity_height=2, cavity_length=3, wall_length=2,
-                      side_thickness=2, skin_thickness=2)
+        """Return two intervals a chamber's height and length, for linear elements."""
+        return cls.of(cavity_width=8, pocket=10, cavity_height=2, cavity_length=2)
 
 
 def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:

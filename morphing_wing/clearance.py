@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import Delaunay, cKDTree
 
 SMALLEST_GAP = 0.3
-"""Pairs of points closer than this (mm) in the undeformed wing meet by design: tail, bonds."""
+"""Points closer than this (mm) to the other side in the undeformed wing meet it by design."""
 
 
 class Clearance:
@@ -27,15 +27,14 @@ class Clearance:
     def __init__(
         self, upper: np.ndarray, lower: np.ndarray, axes: np.ndarray, radius: float
     ) -> None:
-        bodies = {"upper": upper, "lower": lower, "axes": axes}
         self._triangles = {"upper": _triangles(upper), "lower": _triangles(lower)}
-        self._pairs = []
-        for a, b, offset in (("upper", "lower", 0.0), ("axes", "lower", radius),
-                             ("axes", "upper", radius)):
-            if len(bodies[a]):
-                distance, _ = cKDTree(bodies[b]).query(bodies[a])
-                free = np.flatnonzero(distance - offset > SMALLEST_GAP)
-                self._pairs.append((a, b, offset, free))
+        pairs = [("upper", "lower", 0.0)]
+        pairs += [("axes", "lower", radius), ("axes", "upper", radius)] if len(axes) else []
+        everything = [(*pair, slice(None)) for pair in pairs]
+        self._pairs = [
+            (*pair, np.flatnonzero(gaps > SMALLEST_GAP))
+            for pair, gaps in zip(pairs, self._gaps(everything, upper, lower, axes), strict=True)
+        ]
 
     def smallest(self, upper: np.ndarray, lower: np.ndarray, axes: np.ndarray) -> float:
         """Return the smallest gap in mm of the deformed points; negative: they passed through.
@@ -45,18 +44,23 @@ class Clearance:
         upper, lower, axes
             Deformed points in the order of the undeformed ones.
         """
+        gaps = self._gaps(self._pairs, upper, lower, axes)
+        return min((float(found.min()) for found in gaps if len(found)), default=np.inf)
+
+    def _gaps(
+        self, pairs: list, upper: np.ndarray, lower: np.ndarray, axes: np.ndarray
+    ) -> list[np.ndarray]:
+        """Return, of each pair of bodies, how far points of the one are off the other's side."""
         bodies = {"upper": upper, "lower": lower, "axes": axes}
         into_pocket = {"upper": _normals(upper, self._triangles["upper"]),
                        "lower": -_normals(lower, self._triangles["lower"])}
-        smallest = np.inf
-        for a, b, offset, free in self._pairs:
-            if len(free):
-                points = bodies[a][free]
-                _, nearest = cKDTree(bodies[b]).query(points)
-                apart = points - bodies[b][nearest]
-                gaps = np.sum(apart * into_pocket[b][nearest], axis=1) - offset
-                smallest = min(smallest, float(gaps.min()))
-        return smallest
+        found = []
+        for a, b, offset, chosen in pairs:
+            points = bodies[a][chosen]
+            _, nearest = cKDTree(bodies[b]).query(points)
+            apart = points - bodies[b][nearest]
+            found.append(np.sum(apart * into_pocket[b][nearest], axis=1) - offset)
+        return found
 
 
 def _triangles(points: np.ndarray) -> np.ndarray:

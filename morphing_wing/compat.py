@@ -136,9 +136,8 @@ def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int
     if _HAS_BASIX_UFL:
         cell = mesh.basix_cell()
         u = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
-        p = basix.ufl.element(*pressure, cell)
-        if isinstance(pressure[1], int):
-            p = basix.ufl.element(pressure[0], cell, pressure[1], **_pressure_options(pressure))
+        options = _pressure_options(pressure)
+        p = basix.ufl.element(pressure[0], cell, pressure[1], **options)
         return fem.functionspace(mesh, basix.ufl.mixed_element([u, p]))
     u = ufl.VectorElement("Lagrange", mesh.ufl_cell(), degree)
     p = ufl.FiniteElement(pressure[0], mesh.ufl_cell(), pressure[1])
@@ -147,9 +146,7 @@ def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int
 
 def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
     if pressure[0] == "DPC":
-        variant = basix.DPCVariant.legendre
-        return {"dpc_variant": variant, "lagrange_variant": basix.LagrangeVariant.legendre,
-                "discontinuous": True}
+        return {"dpc_variant": basix.DPCVariant.legendre, "discontinuous": True}
     return {}
 
 
@@ -212,7 +209,10 @@ def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:
 
 def sparsity(bilinear: Any) -> PETSc.Mat:
     """Return a matrix with the pattern of a compiled bilinear form."""
-    matrix = _cpp_petsc().create_matrix(_cpp(bilinear))
+    try:
+        matrix = _cpp_petsc().create_matrix(_cpp(bilinear))
+    except TypeError:
+        matrix = _cpp_petsc().create_matrix(_cpp(bilinear), None)
     constants, coefficients = _packed(bilinear)
     # What is never set is squeezed out of a PETSc matrix, so set everything once.
     _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [])

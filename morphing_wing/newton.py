@@ -12,14 +12,22 @@ from petsc4py import PETSc
 from .inertia import InertiaCholesky, Regularisation
 from .system import EquilibriumSystem
 
+# PETSc 3.25 renamed it.
+_NOT_A_NUMBER = getattr(PETSc.SNES.ConvergedReason, "DIVERGED_FNORM_NAN", None) or (
+    PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_NANORINF
+)
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "an element turned inside out (J <= 0)",
-    PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "an element turned inside out (J <= 0)",
+    _NOT_A_NUMBER: "an element turned inside out (J <= 0)",
     PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: "the tangent could not be factorised",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: "Newton used up its iterations",
     PETSc.SNES.ConvergedReason.DIVERGED_DTOL: "the residual grew without bound",
     PETSc.SNES.ConvergedReason.DIVERGED_LINE_SEARCH: "the line search failed",
 }
+
+
+SMALLEST_FORCE = 1e-10
+"""Residual in N below which a state is at rest whatever the loads: rounding of stiff parts."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +122,7 @@ class Newton:
         reference_force
             Norm in N of the loads; the tolerance is relative to it.
         """
-        self._tolerance = self.relative_tolerance * max(reference_force, 1e-6)
+        self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
         self._smallest = np.inf
         self.system.push(self._x)
         self._snes.solve(None, self._x)
@@ -144,7 +152,7 @@ class Newton:
         reason = PETSc.SNES.ConvergedReason
         x_norm, step, residual = norms
         if not np.isfinite(residual):
-            return reason.DIVERGED_FNORM_NAN
+            return _NOT_A_NUMBER
         if residual <= self._tolerance:
             return reason.CONVERGED_FNORM_ABS
         if iteration > 0:

@@ -23,9 +23,9 @@ UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm"}
 class Scene:
     """A structure with named loads that can be led along a path of equilibria.
 
-    A subclass builds ``system``, returns its solver from ``_newton``, and says in ``_functional`` which energies the
-    loads in use require, in ``_measures`` what is measured, in ``_conjugates`` the displacement
-    that each load works on.
+    A subclass builds ``system``, returns its solver from ``_newton``, and says in ``_functional``
+    which energies the loads in use require, in ``_measures`` what is measured, in ``_conjugates``
+    the displacement that each load works on.
 
     Attributes
     ----------

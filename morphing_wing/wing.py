@@ -230,34 +230,35 @@ class Wing(Scene):
             "span_line_deg": deflection_line(self.body.mean_displacement("tip"), span),
         }
         spar = rotation_about_z(self.body.mean_normal("rear_wall"))
-        ribs = self._rib_measures(spar) if self.ribs is not None else {}
+        ribs = self._rib_measures() if self.ribs is not None else {}
         if self.has_skin:
-            edge = self.body.mean_normal("trailing_edge")
-            rear = self.body.mean_displacement("rear_wall")
-            chord = np.array([self.geometry.chord - self.geometry.spar_end, 0.0, 0.0])
-            line = chord + self.body.mean_displacement("trailing_edge") - rear
-            found["chord_angle_deg"] = rotation_about_z(edge) - spar
-            found["chord_line_deg"] = rotation_about_z(line) - spar
+            edge, line = self._trailing_edge()
         elif ribs:
-            count = len(self.geometry.rib_positions)
-            for kind in ("rotation", "line"):
-                values = [ribs[f"rib_{i + 1}_{kind}_deg"] for i in range(count)]
-                name = "chord_angle_deg" if kind == "rotation" else "chord_line_deg"
-                found[name] = float(np.mean(values))
+            edge, line = (np.mean([ribs[name] for name in ribs if kind in name])
+                          for kind in ("rotation", "line"))
+        if self.has_skin or ribs:
+            found["chord_angle_deg"] = float(edge - spar)
+            found["chord_line_deg"] = float(line - spar)
+            found["spar_twist_deg"] = spar
         found |= ribs
         if self.pocket is not None:
             found["gap_mm"] = self.pocket.smallest_gap()
             found["contact"] = float(found["gap_mm"] < 0.0)
         return found
 
-    def _rib_measures(self, spar: float) -> dict[str, float]:
-        """Return of each rib its tail's rotation and its deflection line, against the spar."""
+    def _trailing_edge(self) -> tuple[float, float]:
+        """Return the rotation of the skin's trailing edge and of the line to it from the spar."""
+        rear, edge = (self.body.mean_displacement(f) for f in ("rear_wall", "trailing_edge"))
+        chord = np.array([self.geometry.chord - self.geometry.spar_end, 0.0, 0.0])
+        normal = self.body.mean_normal("trailing_edge")
+        return rotation_about_z(normal), rotation_about_z(chord + edge - rear)
+
+    def _rib_measures(self) -> dict[str, float]:
+        """Return of each rib its tail's rotation and the rotation of the line from root to tail."""
         found = {}
         length = np.array([self.geometry.rib.length, 0.0, 0.0])
         for i in range(len(self.geometry.rib_positions)):
             root, tail = (self.ribs.end_values(kind, i) for kind in ("root", "tail"))
-            rotation = rotation_about_z(turned_x(tail[3:])) - spar
-            found[f"rib_{i + 1}_rotation_deg"] = rotation
-            line = rotation_about_z(length + tail[:3] - root[:3]) - spar
-            found[f"rib_{i + 1}_line_deg"] = line
+            found[f"rib_{i + 1}_rotation_deg"] = rotation_about_z(turned_x(tail[3:]))
+            found[f"rib_{i + 1}_line_deg"] = rotation_about_z(length + tail[:3] - root[:3])
         return found
