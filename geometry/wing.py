@@ -136,7 +136,7 @@ class WingGeometry:
     def foot(self) -> tuple[float, float]:
         """Return height and width in mm of a rib's foot plate."""
         assert self.rib is not None
-        height = self.foot_height or self.rib.height + self.rib.pivot_diameter
+        height = self.foot_height or self.rib.height + self.rib.shaft_width
         width = self.foot_width or 2.0 * self.rib.spacing + self.rib.shaft_thickness
         return height, width
 

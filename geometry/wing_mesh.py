@@ -60,8 +60,8 @@ class WingMeshing:
 
     @classmethod
     def fine(cls) -> WingMeshing:
-        """Return two intervals a chamber's height and length, for linear elements."""
-        return cls.of(cavity_width=8, pocket=10, cavity_height=2, cavity_length=2)
+        """Return a mesh for linear elements; in height it resolves the ribs' feet."""
+        return cls.of(cavity_width=8, pocket=10, cavity_height=two_sided(4, 2.0), cavity_length=2)
 
 
 def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:

@@ -7,8 +7,12 @@ version numbers.
 from __future__ import annotations
 
 import logging
+import os
+import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import dolfinx
@@ -27,6 +31,7 @@ _FORM_KEYWORDS = (
     if "jit_options" in fem.form.__code__.co_varnames
     else {"jit_params": _JIT_OPTIONS}
 )
+_LONGEST_COMPILATION = 900.0  # s
 _HAS_BASIX_UFL = hasattr(fem, "functionspace")
 if _HAS_BASIX_UFL:
     import basix.ufl
@@ -161,6 +166,7 @@ def interpolation_points(space: Any) -> np.ndarray:
 
 def form(expression: Any) -> Any:
     """Compile a UFL form with optimised kernels."""
+    _forget_interrupted_compilations()
     with _quiet_compiler():
         return fem.form(expression, **_FORM_KEYWORDS)
 
@@ -169,6 +175,18 @@ def expression(value: Any, points: np.ndarray) -> Any:
     """Compile a UFL expression for evaluation at reference points."""
     with _quiet_compiler():
         return fem.Expression(value, points, **_FORM_KEYWORDS)
+
+
+@cache
+def _forget_interrupted_compilations() -> None:
+    """Remove what a compiler that was killed left in the cache, or its kernel fails for ever."""
+    if MPI.COMM_WORLD.rank == 0:
+        folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "fenics"
+        for source in folder.glob("*.c"):
+            unfinished = not source.with_suffix(".c.cached").exists()
+            with suppress(OSError):
+                if unfinished and time.time() - source.stat().st_mtime > _LONGEST_COMPILATION:
+                    source.unlink()
 
 
 @contextmanager

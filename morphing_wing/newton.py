@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
+from .burial import bury, register
 from .inertia import InertiaCholesky, Regularisation
 from .system import EquilibriumSystem
 
@@ -84,14 +85,15 @@ class Newton:
     ) -> None:
         self.system = system
         self.relative_tolerance = relative_tolerance
-        self._before_tangent = before_tangent
+        # A strong reference to a method of the scene that owns this solver would be a cycle.
+        self._before_tangent = before_tangent and weakref.WeakMethod(before_tangent)
         self._tolerance = 0.0
         self._b = system.x.duplicate()
         self._x = system.x.duplicate()
         self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
         self._snes = self._create(prefix, max_iterations)
-        # Factors must go before PETSc is finalised, not after.
-        weakref.finalize(self, _destroy, self._snes, self.factor)
+        bury(system.comm)
+        register(self, system.comm, self.factor, self._snes)
 
     def _create(self, prefix: str, max_iterations: int) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
@@ -144,7 +146,7 @@ class Newton:
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self.system.pull(x)
         if self._before_tangent is not None:
-            self._before_tangent(snes.getIterationNumber())
+            self._before_tangent()(snes.getIterationNumber())
         self.system.tangent()
         self.factor.stale = True
 
@@ -163,8 +165,3 @@ class Newton:
             self.factor.relax(1e3 if residual < 0.1 * self._smallest else 10.0)
         self._smallest = min(self._smallest, residual)
         return reason.ITERATING
-
-
-def _destroy(snes: PETSc.SNES, factor: InertiaCholesky) -> None:
-    factor.destroy()
-    snes.destroy()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from mpi4py import MPI
 
 from . import compat
 from .angles import deflection_line, rotation_about_z
+from .drawing import Drawing, bar_radii, default_drawing
 from .errors import require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
@@ -126,6 +127,10 @@ class Rib(Scene):
     def functions(self) -> dict[str, fem.Function]:
         """Displacement in mm (and rotation vector) by name."""
         return {"ribs": self.beams.function}
+
+    def drawing(self, state: State) -> Drawing:
+        """Return how to draw the present state: bars as tubes."""
+        return replace(default_drawing(self), radius={"ribs": bar_radii(self.beams.frame)})
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from mpi4py import MPI
 from . import compat
 from .angles import deflection_line, rotation_about_x, rotation_about_z
 from .chambers import Chambers
+from .drawing import Cut, Drawing, bar_radii, default_drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
 from .forms.beam import displacement
@@ -154,6 +155,20 @@ class Wing(Scene):
         """Displacement in mm by name."""
         found = {"elastomer": self.body.displacement()}
         return found | ({"ribs": self.ribs.function} if self.ribs else {})
+
+    def drawing(self, state: State) -> Drawing:
+        """Return how to draw the present state: cuts, bars as tubes, cables as lines."""
+        wing, cuts, cables, radius = self.geometry, [Cut("x", 0.25 * self.geometry.chord)], [], {}
+        if self.ribs is not None:
+            frame = self.ribs.frame
+            radius = {"ribs": bar_radii(frame)}
+            middle = frame.points[frame.roots[len(frame.roots) // 2], 2]
+            cuts.append(Cut("z", middle + 0.5 * wing.cavity_length + 3.0))
+            for i, tail in enumerate(frame.tails if state.load.get("cable_N") else ()):
+                start = frame.points[tail] + self.ribs.end_values("tail", i)[:3]
+                way = frame.points[tail] + np.array(wing.cable_guide) - start
+                cables.append(np.array([start, start + 40.0 * way / np.linalg.norm(way)]))
+        return replace(default_drawing(self), cuts=cuts, radius=radius, cables=cables)
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
