@@ -109,7 +109,7 @@ def test_sphere_takes_the_exact_pressure(element):
         exact = exact_pressure(lam, 3)
         _lead_to(problem, 0.97 * exact)
         found = pressure_at(problem, undeformed, lam, 3, exact)
-        assert found == pytest.approx(exact, rel=5e-3)
+        assert found == pytest.approx(exact, rel=1e-3)
 
 
 @pytest.mark.parametrize("element", list(MATERIALS))
@@ -121,7 +121,7 @@ def test_cylinder_takes_the_exact_pressure(element):
         exact = exact_pressure(lam, 2)
         _lead_to(problem, 0.97 * exact)
         found = pressure_at(problem, undeformed, lam, 2, exact)
-        assert found == pytest.approx(exact, rel=5e-3)
+        assert found == pytest.approx(exact, rel=1e-3)
 
 
 def _lead_to(problem, pressure, steps=3):
