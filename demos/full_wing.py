@@ -94,7 +94,7 @@ for title, path in (("with skin, 25 kPa and 0.2 N", both), ("no skin, 25 kPa and
     say(f"\n{title}\n{path.table()[columns].tail(1).to_string(index=False)}")
 if root:
     plot_paths(by_pressure, options.out / "span_angle.png")
-    plot_paths(by_cable, options.out / "chord_angle.png")
+    plot_paths(by_cable, options.out / "chord_angle.png", angle="chord_angle_deg")
 both.render(options.out / "wing.png")
 say("\nTables, curves, pictures and files for ParaView are in "
     f"{options.out}/")

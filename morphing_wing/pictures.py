@@ -92,7 +92,7 @@ def caption(state: State, line_break: str = ":  ") -> str:
         face, line = (state.measures.get(f"{name}_{kind}_deg") for kind in ("angle", "line"))
         if face is not None:
             text = f"{symbol} = {face:.1f}°"
-            angles.append(text + (f" (deflection line {line:.1f}°)" if line is not None else ""))
+            angles.append(text + (f" (deflection line {line + 0.0:.1f}°)" if line is not None else ""))
     parts = (", ".join(loads) or "no load", ",  ".join(angles))
     return line_break.join(part for part in parts if part)
 
