@@ -91,10 +91,15 @@ def caption(state: State, line_break: str = ":  ") -> str:
     for name, symbol in _ANGLES:
         face, line = (state.measures.get(f"{name}_{kind}_deg") for kind in ("angle", "line"))
         if face is not None:
-            text = f"{symbol} = {face:.1f}°"
-            angles.append(text + (f" (deflection line {line + 0.0:.1f}°)" if line is not None else ""))
+            text = f"{symbol} = {_degrees(face)}"
+            also = "" if line is None else f" (deflection line {_degrees(line)})"
+            angles.append(text + also)
     parts = (", ".join(loads) or "no load", ",  ".join(angles))
     return line_break.join(part for part in parts if part)
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(angle, 1) + 0.0:.1f}°"  # adding zero turns -0.0 into 0.0
 
 
 def _seen(scene: Any, state: State) -> tuple[dict, Drawing]:
