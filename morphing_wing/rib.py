@@ -26,6 +26,7 @@ from .path import Path, State
 from .scene import Scene, choose_fidelity
 from .stepping import Stepping
 from .system import Block, EquilibriumSystem
+from .tension import check_tension
 
 FIDELITIES = ("draft",)
 
@@ -114,9 +115,7 @@ class Rib(Scene):
         on_step, on_cut
             Called on every rank after each converged step, and after each step that was cut.
         """
-        tensions = np.atleast_1d(np.asarray(cable, dtype=object)).ravel()
-        slack = [t for t in tensions if isinstance(t, (int, float, np.number)) and t < 0.0]
-        require(not slack, "cable", min(slack, default=0.0), "N", "0 N or more: cables only pull")
+        check_tension(cable)
         self._guide.value = self._tail + _guide(guide)
         self.primary_load = "cable_N"
         return self.follow({"cable_N": cable}, on_step, on_cut)

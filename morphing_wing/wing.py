@@ -32,6 +32,7 @@ from .pocket import Pocket
 from .scene import Scene, choose_fidelity
 from .stepping import Stepping
 from .system import Block, EquilibriumSystem
+from .tension import check_tension
 
 
 @dataclass(frozen=True)
@@ -142,8 +143,10 @@ class Wing(Scene):
         Raises
         ------
         InputError
-            If a load is not finite, or cables are pulled in a wing without ribs.
+            If a load is not finite, a tension negative, or cables are pulled in a wing without
+            ribs.
         """
+        check_tension(cable, ribs=self.ribs is not None)
         return self.follow(
             {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}, on_step, on_cut
         )
