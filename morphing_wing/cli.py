@@ -7,6 +7,7 @@ loaded before something is solved.
 
 from __future__ import annotations
 
+import json
 import os
 import pathlib
 import sys
@@ -50,8 +51,14 @@ def solve(
         pathlib.Path | None,
         typer.Option(metavar="DIR", help="Folder of the results; output/SCENE if not given."),
     ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on after the last step that DIR/restart.npz holds.")
+    ] = False,
 ) -> int:
-    """Solve a scene and write summary.json, table.csv, pictures and fields."""
+    """Solve a scene and write summary.json, table.csv, pictures and fields.
+
+    A run that was stopped or killed goes on with --resume, on any number of ranks.
+    """
     from morphing_wing.root import on_root
     from morphing_wing.scene_file import located, read_scene
 
@@ -61,6 +68,8 @@ def solve(
     def read() -> Any:
         checked = read_scene(or_hint(scene), fidelity)
         check_folder(folder)
+        if resume and not (folder / "restart.npz").is_file():
+            raise InputError(f"--resume: {folder} must hold a restart.npz of a run to go on with")
         return checked
 
     file = comm.bcast(on_root(comm, read), root=0)
@@ -71,9 +80,16 @@ def solve(
     with located(str(scene)):
         built = file.build(comm)
         typer.echo(f"{file.scene}, {file.fidelity}: {built.dofs} unknowns on {comm.size} rank(s)")
-        path = file.run(built, on_step=progress, on_cut=progress.cut)
+        path = file.run(built, on_step=progress, on_cut=progress.cut, restart=folder,
+                        resume=folder if resume else None)
     progress.end(path.converged, path.reason)
-    path.save(folder)
+    before = len(path) - progress.steps
+    if resume:
+        typer.echo(f"{before} step(s) were done before, {progress.steps or 'none'} now")
+    # To save again what is there would drop the fields of all states but the last.
+    nothing_new = resume and progress.steps == 0
+    if not (nothing_new and comm.bcast(on_root(comm, lambda: saved_already(folder, path)))):
+        path.save(folder)
     typer.echo(f"results are in {folder}")
     return DONE if path.converged else STOPPED
 
@@ -154,6 +170,15 @@ def check_folder(folder: pathlib.Path) -> None:
         raise InputError(f"--out {folder}: must be a folder, {exists} is a file")
     if not os.access(exists, os.W_OK | os.X_OK):
         raise InputError(f"--out {folder}: must be a folder that can be written")
+
+
+def saved_already(folder: pathlib.Path, path: Any) -> bool:
+    """Whether the folder's summary is that of a path of as many steps that ended alike."""
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        return (summary["steps"], summary["converged"]) == (len(path), path.converged)
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
 def warn_in_one_line(message: Warning | str, *_: Any, **__: Any) -> None:

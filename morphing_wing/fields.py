@@ -164,11 +164,14 @@ def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:
     """Write a path's fields for ParaView: ``path.pvd`` and one ``.vtu`` a state and function.
 
     Time in ParaView is the number of the step; loads and measures stand in each file as field
-    data. Collective; rank 0 writes. Files of an earlier, longer path are removed.
+    data. States without fields are left out. Collective; rank 0 writes. Files of an earlier, longer
+    path are removed.
     """
     directory = pathlib.Path(directory)
     entries = []
     for step, state in enumerate(path):
+        if not state.fields:  # from before a restart
+            continue
         grids = scene_grids(path.scene, state)
         for part, (name, grid) in enumerate(grids.items()):
             file = directory / f"{name}_{step:04d}.vtu"

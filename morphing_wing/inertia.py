@@ -9,6 +9,7 @@ an equilibrium of the unregularised problem.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,6 +97,17 @@ class InertiaCholesky:
         if self._inner is not None:
             self._inner.destroy()
             self._inner = None
+
+    def memory(self) -> dict[str, float]:
+        """Return what the next solve inherits from those before; the same on all ranks."""
+        found = {"mass_amount": self.amount}
+        return found | ({"mass_unit": self._unit_value} if hasattr(self, "_unit_value") else {})
+
+    def recall(self, memory: Mapping[str, float]) -> None:
+        """Take over what `memory` returned, also in an earlier run."""
+        self.amount = memory["mass_amount"]
+        if "mass_unit" in memory:
+            self._unit_value = memory["mass_unit"]
 
     # -- the rule -----------------------------------------------------------------------------
 

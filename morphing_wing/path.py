@@ -75,6 +75,10 @@ class State:
         """Draw this state as a PNG picture: whole, and cut along the span. Collective."""
         from morphing_wing.pictures import render
 
+        if not self.fields:
+            load = ", ".join(f"{name} = {value:.6g}" for name, value in self.load.items())
+            raise InputError(f"state at {load}: has no fields to draw, of the states before a "
+                             "restart only the last one's are kept")
         return render(self.scene, self, file)
 
 
@@ -189,8 +193,9 @@ class Path(Sequence[State]):
 
         ``summary.json`` and ``table.csv`` come first, then ``fields/path.pvd`` with one ``.vtu`` a
         state and function (ParaView), then ``angles.png``, ``shape.png`` (last state) and
-        ``path.png`` (a strip of states). Each file appears whole or not at all. Where this machine
-        cannot draw in 3D, a warning says what is missing and the rest is written.
+        ``path.png`` (a strip of states). States before a restart have no fields to write. Each file
+        appears whole or not at all. Where this machine cannot draw in 3D, a warning says what is
+        missing and the rest is written.
         """
         directory = pathlib.Path(directory)
         on_root(self.scene.comm, lambda: self._save_figures(directory))
@@ -201,7 +206,7 @@ class Path(Sequence[State]):
         fields.save_path(self, directory / "fields")
         try:
             pictures.render(self.scene, self[-1], directory / "shape.png")
-            if len(self) > 2:
+            if sum(bool(state.fields) for state in self) > 2:
                 pictures.render_strip(self, directory / "path.png")
         except pictures.NoRenderer as missing:
             if self.scene.comm.rank == 0:

@@ -74,8 +74,9 @@ def render_strip(path: Path, file: str | os.PathLike, most: int = 4) -> pathlib.
     most
         At most this number of states, spread evenly.
     """
-    chosen = np.unique(np.linspace(0, len(path) - 1, min(most, len(path))).round().astype(int))
-    states = [path[int(i)] for i in chosen]
+    drawable = [state for state in path if state.fields]  # before a restart they have none
+    chosen = np.linspace(0, len(drawable) - 1, min(most, len(drawable))).round().astype(int)
+    states = [drawable[i] for i in np.unique(chosen)]
     drawn = [(*_seen(path.scene, state), state) for state in states]
     on_root(path.scene.comm, lambda: _draw_strip(drawn, path.scene, file))
     return pathlib.Path(file)

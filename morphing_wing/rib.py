@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from typing import Any
@@ -81,6 +82,8 @@ class Rib(Scene):
         torque: float | Sequence[float],
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
     ) -> Path:
         """Bend by a moment about z at the tail, positive when it turns the tail down.
 
@@ -91,11 +94,11 @@ class Rib(Scene):
         ----------
         torque
             Moment in N mm: a number or a sequence of them.
-        on_step, on_cut
-            Called on every rank after each converged step, and after each step that was cut.
+        on_step, on_cut, restart, resume
+            See `Scene.follow`.
         """
         self.primary_load = "torque_Nmm"
-        return self.follow({"torque_Nmm": torque}, on_step, on_cut)
+        return self.follow({"torque_Nmm": torque}, on_step, on_cut, restart, resume)
 
     def pull(
         self,
@@ -103,6 +106,8 @@ class Rib(Scene):
         guide: Sequence[float] = (0.0, -100.0, 0.0),
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
     ) -> Path:
         """Pull by a cable of constant tension from the tail to a fixed guide point.
 
@@ -112,13 +117,13 @@ class Rib(Scene):
             Tension in N: a number or a sequence of them.
         guide
             The guide point, seen from the undeformed tail, mm.
-        on_step, on_cut
-            Called on every rank after each converged step, and after each step that was cut.
+        on_step, on_cut, restart, resume
+            See `Scene.follow`.
         """
         check_tension(cable)
         self._guide.value = self._tail + _guide(guide)
         self.primary_load = "cable_N"
-        return self.follow({"cable_N": cable}, on_step, on_cut)
+        return self.follow({"cable_N": cable}, on_step, on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
 

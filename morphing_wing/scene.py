@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -10,11 +11,12 @@ import numpy as np
 from mpi4py import MPI
 
 from . import compat
+from . import restart as restart_files
 from .errors import InputError, require
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
 from .path import Path, State
-from .stepping import Stepping, follow
+from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
 
 UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm"}
@@ -66,6 +68,8 @@ class Scene:
         loads: Mapping[str, float | Sequence[float] | None],
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[[Mapping[str, float], str], None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
     ) -> Path:
         """Lead the scene from where it is through wanted loads.
 
@@ -75,19 +79,39 @@ class Scene:
             Of each load by name a number, a sequence of them, or None for none; broadcast together.
         on_step, on_cut
             Called on every rank after each converged step, and after each step that was cut.
+        restart
+            Folder (or .npz file) in which each converged step leaves what it takes to resume.
+        resume
+            Such a folder or file: go on after the last step in it, on any number of ranks. The
+            path begins with its states, without the fields of all but the last.
         """
         targets = _targets(self.load_names, loads)
         clock = time.perf_counter()
+        earlier = None if resume is None else restart_files.read(resume, self)
+        if earlier is not None:
+            earlier.check(targets)
+            self._stand_at(earlier)
+        done, spent = ([], 0.0) if earlier is None else (earlier.states, earlier.seconds)
+
+        def keep(standing: Standing, states: list[State]) -> None:
+            if restart is not None:
+                seconds = spent + time.perf_counter() - clock
+                restart_files.write(restart, self, done + states, standing, seconds)
+
         in_use = tuple(n for n in self.load_names
                        if self._load[n] != 0.0 or any(t[n] != 0.0 for t in targets))
         if in_use != self._in_use:
             self._use(in_use)
+        if earlier is not None:
+            self.recall(earlier.memory)
         states, converged, reason = follow(
-            self, self._load, targets, self.stepping, on_step, on_cut
+            self, self._load, targets, self.stepping, on_step, on_cut, keep,
+            earlier and earlier.standing,
         )
         if states:
             self._load = dict(states[-1].load)
-        return Path(states, self, converged, reason, time.perf_counter() - clock)
+        seconds = spent + time.perf_counter() - clock
+        return Path(done + states, self, converged, reason, seconds)
 
     # -- for the stepping ---------------------------------------------------------------------
 
@@ -148,6 +172,19 @@ class Scene:
         for block in self.system.blocks:
             block.function.x.array[:] = state.fields[block.function.name]
 
+    # -- for restarts -------------------------------------------------------------------------
+
+    def memory(self) -> dict[str, float]:
+        """Return what a next step inherits beside loads and unknowns; the same on all ranks."""
+        own = {"external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+        return own | self.newton.factor.memory()
+
+    def recall(self, memory: Mapping[str, float]) -> None:
+        """Take over what `memory` returned, also in an earlier run."""
+        self._work = memory["external_work_Nmm"]
+        self._largest_force = memory["largest_force_N"]
+        self.newton.factor.recall(memory)
+
     # -- for subclasses -----------------------------------------------------------------------
 
     def _newton(self) -> Newton:
@@ -178,6 +215,12 @@ class Scene:
         raise NotImplementedError
 
     # -- internals ----------------------------------------------------------------------------
+
+    def _stand_at(self, earlier: restart_files.Restart) -> None:
+        self.show(earlier.states[-1])
+        self.accept()
+        self._load = dict(earlier.standing.load)
+        self._in_use = None  # whatever it was: `_use` sets the load and takes it as the last one
 
     def _use(self, in_use: tuple[str, ...]) -> None:
         energies, corrections = self._functional(in_use)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -98,6 +99,8 @@ class Spar(Scene):
         lower: float | Sequence[float] | None = None,
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
     ) -> Path:
         """Inflate the chambers of the upper and the lower row.
 
@@ -105,8 +108,8 @@ class Spar(Scene):
         ----------
         upper, lower
             Pressures in MPa: a number, a sequence of them, or None (no pressure, and no cost).
-        on_step
-            Called on every rank after each converged step.
+        on_step, on_cut, restart, resume
+            See `Scene.follow`.
 
         Returns
         -------
@@ -118,7 +121,8 @@ class Spar(Scene):
         InputError
             If a pressure is not a finite number.
         """
-        return self.follow({"upper_MPa": upper, "lower_MPa": lower}, on_step, on_cut)
+        loads = {"upper_MPa": upper, "lower_MPa": lower}
+        return self.follow(loads, on_step, on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
 

@@ -59,6 +59,33 @@ class Steppable(Protocol):
         """Measure the present state."""
 
 
+@dataclass(frozen=True)
+class Standing:
+    """Where the stepping stands after a converged step: all that it needs to go on from there.
+
+    Attributes
+    ----------
+    load
+        The load of the last state.
+    reached
+        Number of wanted loads reached.
+    begin, target
+        The loads between which it is under way.
+    done, step
+        Part of this way that is done, and the next step.
+    secant
+        What the predictor knows.
+    """
+
+    load: Load
+    reached: int
+    begin: Load
+    target: Load
+    done: float
+    step: float
+    secant: Secant
+
+
 def follow(
     scene: Steppable,
     start: Load,
@@ -66,8 +93,22 @@ def follow(
     stepping: Stepping,
     on_step: Callable[[State], None] | None = None,
     on_cut: Callable[[Load, str], None] | None = None,
+    keep: Callable[[Standing, list[State]], None] | None = None,
+    standing: Standing | None = None,
 ) -> tuple[list[State], bool, str]:
     """Lead a scene from its present equilibrium at ``start`` through all targets.
+
+    Parameters
+    ----------
+    scene, start, targets, stepping
+        What is led, from which load, to which loads, and how.
+    on_step, on_cut
+        Called after each converged step, and after each step that was cut.
+    keep
+        Called before ``on_step`` with where it stands, and the states of this call so far.
+    standing
+        What ``keep`` was given after the step that led to ``start``: goes on from there, past
+        those of the targets that were reached.
 
     Returns
     -------
@@ -80,11 +121,16 @@ def follow(
     """
     states: list[State] = []
     here = dict(start)
-    secant = _Secant(here, scene.unknowns())
-    for target in targets:
-        way = {name: target[name] - here[name] for name in target}
-        begin, done, step = dict(here), 0.0, _longest(way, stepping)
-        limit = step
+    secant = Secant(here, scene.unknowns()) if standing is None else standing.secant
+    for number, target in enumerate(targets):
+        if standing is not None and number < standing.reached:
+            continue
+        begin, done, step = dict(here), 0.0, 1.0
+        if standing is not None and standing.target == target and number == standing.reached:
+            begin, done, step = dict(standing.begin), standing.done, standing.step
+        way = {name: target[name] - begin[name] for name in target}
+        limit = _longest(way, stepping)
+        step = min(step, limit)
         while done < 1.0:
             step = min(step, 1.0 - done)
             load = dict(target) if done + step > 1.0 - 1e-9 else {
@@ -113,37 +159,55 @@ def follow(
             done = 1.0 if requested else done
             state = scene.state(load, result, time.perf_counter() - clock, requested)
             states.append(state)
-            if on_step is not None:
-                on_step(state)
             if result.iterations <= stepping.easy:
                 step = min(2 * step, limit)
+            if keep is not None:
+                keep(Standing(here, number + requested, begin, target, done, step, secant), states)
+            if on_step is not None:
+                on_step(state)
     return states, True, "the last load was reached"
 
 
-class _Secant:
-    """Extrapolation through the last two states, where the load goes on in the same direction."""
+class Secant:
+    """Extrapolation through the last two states, where the load goes on in the same direction.
 
-    def __init__(self, load: Load, values: list[np.ndarray]) -> None:
+    Attributes
+    ----------
+    step
+        Change of the loads between those states, sorted by name; None before there are two.
+    slope
+        Change of the rank-local values of all functions.
+    """
+
+    def __init__(
+        self,
+        load: Load,
+        values: list[np.ndarray],
+        step: Sequence[float] | None = None,
+        slope: list[np.ndarray] | None = None,
+    ) -> None:
         self._load, self._values = dict(load), values
-        self._slope: list[np.ndarray] | None = None
-        self._step: np.ndarray | None = None
+        self.step = None if step is None else list(step)
+        self.slope = slope
 
     def add(self, load: Load, values: list[np.ndarray]) -> None:
+        """Take a new state."""
         step = _difference(load, self._load)
         if np.linalg.norm(step) > 0.0:
-            self._step = step
-            self._slope = [new - old for new, old in zip(values, self._values, strict=True)]
+            self.step = step.tolist()
+            self.slope = [new - old for new, old in zip(values, self._values, strict=True)]
         self._load, self._values = dict(load), values
 
     def predict(self, load: Load) -> list[np.ndarray]:
-        if self._slope is None or self._step is None:
+        """Return the values expected at a load; the last ones where nothing is known."""
+        if self.slope is None or self.step is None:
             return self._values
-        step = _difference(load, self._load)
-        ratio = step @ self._step / (self._step @ self._step)
-        aside = np.linalg.norm(step - ratio * self._step)
+        step, known = _difference(load, self._load), np.array(self.step)
+        ratio = step @ known / (known @ known)
+        aside = np.linalg.norm(step - ratio * known)
         if ratio < 0.0 or aside > 1e-6 * np.linalg.norm(step):
             return self._values
-        return [v + ratio * s for v, s in zip(self._values, self._slope, strict=True)]
+        return [v + ratio * s for v, s in zip(self._values, self.slope, strict=True)]
 
 
 def _difference(a: Load, b: Load) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -122,6 +123,8 @@ class Wing(Scene):
         cable: float | Sequence[float] | None = None,
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
     ) -> Path:
         """Inflate chambers and pull cables.
 
@@ -131,8 +134,8 @@ class Wing(Scene):
             Pressures in MPa in the two rows of chambers: numbers, sequences or None.
         cable
             Tension in N in the cable of each rib: a number, a sequence or None.
-        on_step
-            Called on every rank after each converged step.
+        on_step, on_cut, restart, resume
+            See `Scene.follow`.
 
         Returns
         -------
@@ -147,9 +150,8 @@ class Wing(Scene):
             ribs.
         """
         check_tension(cable, ribs=self.ribs is not None)
-        return self.follow(
-            {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}, on_step, on_cut
-        )
+        loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}
+        return self.follow(loads, on_step, on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ class FakeScene:
     def description(self):
         return {}
 
-    def inflate(self, upper, on_step, on_cut):
+    def inflate(self, upper, on_step, on_cut, restart, resume):
         states = []
         for pressure in upper[: self.reaches]:
             states.append(State({"upper_MPa": pressure}, {"span_angle_deg": 100 * pressure},
