@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from numbers import Real
 
@@ -28,7 +29,7 @@ def check_tension(cable: float | Sequence[float] | None, ribs: bool = True) -> N
         If a tension is negative, or is not zero where there are no ribs.
     """
     given = np.asarray([] if cable is None else cable, dtype=object).ravel()
-    tensions = [t for t in given if isinstance(t, Real)]
+    tensions = [t for t in given if isinstance(t, Real) and math.isfinite(t)]
     lowest, highest = min(tensions, default=0.0), max(tensions, default=0.0)
     require(not lowest < 0.0, "cable", lowest, "N", "0 N or more: cables only pull")
     require(ribs or not highest > 0.0, "cable", highest, "N",
