@@ -164,13 +164,15 @@ def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:
     """Write a path's fields for ParaView: ``path.pvd`` and one ``.vtu`` a state and function.
 
     Time in ParaView is the number of the step; loads and measures stand in each file as field
-    data. States without fields are left out. Collective; rank 0 writes. Files of an earlier, longer
-    path are removed.
+    data. Of states without fields an earlier run's files stay, where they are of the same state.
+    Collective; rank 0 writes. Files of an earlier, longer path are removed.
     """
     directory = pathlib.Path(directory)
     entries = []
     for step, state in enumerate(path):
         if not state.fields:  # from before a restart
+            entries += on_root(path.scene.comm, lambda i=step, s=state: _written_before(
+                list(path.scene.functions), i, s, directory)) or []
             continue
         grids = scene_grids(path.scene, state)
         for part, (name, grid) in enumerate(grids.items()):
@@ -179,6 +181,25 @@ def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:
             entries.append((step, part, name, file.name))
     on_root(path.scene.comm, lambda: _write_series(entries, directory))
     return directory / "path.pvd"
+
+
+def _written_before(
+    names: list[str], step: int, state: State, directory: pathlib.Path
+) -> list[tuple[int, int, str, str]]:
+    """Return the entries of a state that an earlier run wrote, none if its figures differ."""
+    import pyvista
+
+    entries = []
+    for part, name in enumerate(names):
+        file = directory / f"{name}_{step:04d}.vtu"
+        if not file.is_file():
+            return []
+        there = pyvista.read(file).field_data
+        for figure, value in (state.load | state.measures).items():
+            if figure not in there or not np.array_equal(there[figure], [value], equal_nan=True):
+                return []
+        entries.append((step, part, name, file.name))
+    return entries
 
 
 def _write_grid(grid: pyvista.UnstructuredGrid, state: State, file: pathlib.Path) -> None:

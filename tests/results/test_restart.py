@@ -208,3 +208,21 @@ def test_a_resumed_path_saves_all_rows_and_the_fields_that_it_has(interrupted, t
     assert len(rows) == 1 + len(UPPER)
     written = sorted(file.name for file in (folder / "fields").glob("*.vtu"))
     assert written == ["elastomer_0001.vtu", "elastomer_0002.vtu"]
+
+
+def test_fields_that_the_first_run_saved_stay_if_they_are_of_the_same_states(tmp_path):
+    def files():
+        return {file.name: file.read_bytes() for file in (tmp_path / "fields").glob("*.vtu")}
+
+    first = spar().inflate(upper=[0.005, 0.01], restart=tmp_path)
+    first.save(tmp_path)
+    old = files()
+    spar().inflate(upper=[0.005, 0.01, 0.015], resume=tmp_path).save(tmp_path)
+    assert sorted(files()) == [f"elastomer_000{step}.vtu" for step in range(3)]
+    assert files()["elastomer_0000.vtu"] == old["elastomer_0000.vtu"]
+    series = (tmp_path / "fields" / "path.pvd").read_text()
+    assert all(name in series for name in files())
+
+    spar().inflate(upper=[0.004, 0.01]).save(tmp_path)
+    spar().inflate(upper=[0.005, 0.01, 0.015], resume=tmp_path).save(tmp_path)
+    assert sorted(files()) == ["elastomer_0001.vtu", "elastomer_0002.vtu"]
