@@ -97,9 +97,11 @@ class SparGeometry:
         """Refuse what cannot be built."""
         for field in fields(self)[:-1]:
             value = getattr(self, field.name)
-            ok = isinstance(value, (int, float)) and np.isfinite(value) and value > 0
+            number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+            ok = number and np.isfinite(value) and value > 0
             require(ok, field.name, value, "mm", "a finite length greater than 0 mm")
-        ok = isinstance(self.n_cells, (int, np.integer)) and self.n_cells >= 1
+        whole = isinstance(self.n_cells, (int, np.integer)) and not isinstance(self.n_cells, bool)
+        ok = whole and self.n_cells >= 1
         require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
 
     @classmethod

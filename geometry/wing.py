@@ -84,7 +84,7 @@ class WingGeometry:
             if value is None and name.startswith("foot_"):
                 continue
             require(_is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
-        ok = isinstance(self.n_cells, (int, np.integer)) and self.n_cells >= 1
+        ok = _is_number(self.n_cells) and self.n_cells == int(self.n_cells) and self.n_cells >= 1
         require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
         ok = _is_number(self.spar_fraction) and 0.1 <= self.spar_fraction <= 0.9
         require(ok, "spar_fraction", self.spar_fraction, "", "between 0.1 and 0.9")
@@ -147,6 +147,11 @@ class WingGeometry:
                 f"less than {self.cavity_end - 1.0:.4g} mm, or no chamber fits in the spar")
         ends = np.array([self.nose_length, self.cavity_end])
         room = float(section.half_thickness(ends).min()) - half
+        if room <= 0.2:
+            raise InputError(
+                f"chord = {self.chord:g} mm with aerofoil {self.aerofoil}: must be thicker at both "
+                "ends of the chambers, or they are taller than the aerofoil"
+            )
         require(self.top_thickness < room - 0.1, "top_thickness", self.top_thickness, "mm",
                 f"less than {room - 0.1:.4g} mm, or the chambers are taller than the aerofoil")
 
@@ -155,20 +160,32 @@ class WingGeometry:
         ok = _is_number(value) and 0 < value < self.top_thickness
         require(ok, "skin_thickness", value, "mm",
                 f"greater than 0 mm and less than top_thickness = {self.top_thickness:g} mm")
-        ok = self.pocket_end > self.spar_end + 1.0
+        edge, front = (float(self.section.half_thickness(x)) for x in (self.chord, self.spar_end))
+        require(edge < value, "skin_thickness", value, "mm",
+                f"more than {edge:.4g} mm, half the trailing edge's thickness")
+        ok = value < front and self.pocket_end > self.spar_end + 1.0
         require(ok, "skin_thickness", value, "mm", "so thin that a pocket remains behind the spar")
 
     def _check_ribs(self, rib: RibGeometry) -> None:
-        ok = all(_is_number(p) and 0 < p < 1 for p in self.rib_positions) and self.rib_positions
-        require(bool(ok), "rib_positions", list(self.rib_positions), "",
+        places = self.rib_positions if isinstance(self.rib_positions, (tuple, list)) else ()
+        ok = all(_is_number(p) and 0 < p < 1 for p in places) and places
+        require(bool(ok), "rib_positions", self.rib_positions, "",
                 "one or more parts of the span between 0 and 1")
+        height, _ = self.foot()
+        wall = 2.0 * float(self.section.half_thickness(self.spar_end))
+        require(height <= wall, "foot_height", height, "mm",
+                f"at most the rear wall's height of {wall:.4g} mm")
         end = self.chord if self.skin_thickness is None else self.pocket_end
         room = end - self.spar_end
         require(rib.length < room, "rib.n_cells", rib.n_cells, "",
                 f"at most {int(room / rib.pitch - 1e-9)}, or the rib is longer than the pocket "
                 f"({rib.length:.4g} mm against {room:.4g} mm)")
-        ok = len(self.cable_guide) == 3 and all(_is_number(c) for c in self.cable_guide)
-        require(bool(ok) and any(self.cable_guide), "cable_guide", list(self.cable_guide), "mm",
+        guide = self.cable_guide if isinstance(self.cable_guide, (tuple, list)) else ()
+        bond = self.chord - self.spar_end - rib.length
+        require(self.tail_bond_length <= bond, "tail_bond_length", self.tail_bond_length, "mm",
+                f"at most {bond:.4g} mm, from the rib's end to the trailing edge")
+        ok = len(guide) == 3 and all(_is_number(c) for c in guide)
+        require(bool(ok) and any(guide), "cable_guide", self.cable_guide, "mm",
                 "three lengths, not all zero")
 
 

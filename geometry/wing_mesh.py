@@ -79,7 +79,8 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
         pieces += [(wing.pocket_end - wing.spar_end, parts.pocket),
                    (wing.chord - wing.pocket_end, parts.tail)]
     x, x_piece = breakpoints(*pieces)
-    upper = [(1.0, parts.cavity_height), (1.0, parts.top_thickness), (1.0, parts.skin_thickness)]
+    cavity_height = _with_foot_edge(wing, parts.cavity_height)
+    upper = [(1.0, cavity_height), (1.0, parts.top_thickness), (1.0, parts.skin_thickness)]
     lower = [(length, 1.0 - part[::-1]) for length, part in reversed(upper)]
     v, v_piece = breakpoints(*lower, (2.0, parts.middle_thickness), *upper)
     cell = [(wing.cavity_length, parts.cavity_length), (wing.wall_length, parts.wall_length)]
@@ -106,6 +107,21 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
 
     mesh = swept_blocks((x, v, z), kind, names, mapping, faces)
     return _merged(_with_pocket_sides(mesh)) if skin else mesh
+
+
+def _with_foot_edge(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
+    """Return a chamber's breakpoints with one at the edge of the ribs' feet on the rear wall."""
+    if wing.rib is None:
+        return fractions
+    bottom = wing.middle_thickness / 2.0
+    top = float(wing.section.half_thickness(wing.spar_end)) - wing.top_thickness
+    edge = (wing.foot()[0] / 2.0 - bottom) / (top - bottom)
+    if not 0.02 < edge < 0.98:
+        return fractions
+    inner = fractions[1:-1]
+    if len(inner) and np.abs(inner - edge).min() < 0.1:
+        inner = np.delete(inner, np.abs(inner - edge).argmin())
+    return np.concatenate([[0.0], np.sort(np.append(inner, edge)), [1.0]])
 
 
 def _to_aerofoil(wing: WingGeometry, grid: np.ndarray) -> np.ndarray:

@@ -92,6 +92,12 @@ class InertiaCholesky:
             if self.shortened:
                 y.scale(self.regularisation.longest_step / length)
 
+    def inspect(self, matrix: PETSc.Mat) -> None:
+        """Factorise a tangent without mass, to count its negative pivots."""
+        self._matrix, self._diagonal = matrix, matrix.getDiagonal()
+        self.amount, self._changed = 0.0, False
+        self._factorise()
+
     def destroy(self, pc: PETSc.PC | None = None) -> None:
         """Free the factors."""
         if self._inner is not None:

@@ -27,8 +27,8 @@ REASONS = {
 }
 
 
-SMALLEST_FORCE = 1e-10
-"""Residual in N below which a state is at rest whatever the loads: rounding of stiff parts."""
+SMALLEST_FORCE = 1e-13
+"""Residual in N below which a state is at rest whatever the loads: rounding."""
 
 
 @dataclass(frozen=True)
@@ -130,6 +130,10 @@ class Newton:
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
+        if reason > 0 and self.factor.amount > 0.0:
+            # The last factor was of K + a M, which hides what K itself says of stability.
+            self.system.tangent()
+            self.factor.inspect(self.system.matrix)
         return NewtonResult(
             converged=reason > 0,
             reason="converged" if reason > 0 else REASONS.get(reason, f"SNES reason {reason}"),

@@ -50,12 +50,15 @@ class _Points:
             points = points[points < n_owned]
         self._comm, self._function, self._points = comm, function, points
         self._size = space.dofmap.index_map_bs
-        self.reference = self._gathered(space.tabulate_dof_coordinates()[points])
+        # An order and rounding of its own, or ties between neighbours are decided by the ranks.
+        reference = np.round(self._gathered(space.tabulate_dof_coordinates()[points]), 6) + 0.0
+        self._order = np.lexsort(reference.T)
+        self.reference = reference[self._order]
 
     def deformed(self) -> np.ndarray:
         """Return X + u, shape (n, 3), mm."""
         values = self._function.x.array.reshape(-1, self._size)[self._points, :3]
-        return self.reference + self._gathered(values)
+        return self.reference + self._gathered(values)[self._order]
 
     def _gathered(self, rows: np.ndarray) -> np.ndarray:
         return np.concatenate(self._comm.allgather(np.ascontiguousarray(rows)))

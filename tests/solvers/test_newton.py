@@ -48,7 +48,6 @@ def test_regularisation_leaves_a_stable_problem_alone():
     assert strip.newton.factor.factorisations == results[1].iterations
 
 
-@pytest.mark.xfail(strict=True, reason="pivots of the last, still regularised factor are counted")
 def test_a_saddle_reached_with_regularisation_is_not_called_stable():
     strip = Strip(0.0, regularised=True)
     result = strip.push(BEYOND_BUCKLING)
