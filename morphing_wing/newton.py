@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
+from . import blas
 from .burial import bury, register
 from .inertia import InertiaCholesky, Regularisation
 from .system import EquilibriumSystem
@@ -83,6 +84,7 @@ class Newton:
         relative_tolerance: float = 1e-9,
         before_tangent: Callable[[int], None] | None = None,
     ) -> None:
+        blas.check()
         self.system = system
         self.relative_tolerance = relative_tolerance
         # A strong reference to a method of the scene that owns this solver would be a cycle.
