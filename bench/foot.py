@@ -3,10 +3,10 @@
 The prototype without skin, cables at 0.1 N. A rib stands on soft rubber, into which its foot sinks
 and turns: the answer depends on the foot plate's size and on the glue, which are parameters of the
 wing, and must not depend on the mesh below, which is none. Linear hexahedra, one load step; also
-under ``mpirun``. Thirteen full wings, about a minute each on one core.
+under ``mpirun``. Thirteen full wings, 5 to 15 seconds each on one core.
 
     python bench/foot.py
-    mpirun -n 2 python bench/foot.py --cells 6
+    mpirun -n 2 python bench/foot.py --cells 12
 """
 
 import argparse
