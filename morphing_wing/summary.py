@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import blas
+
 if TYPE_CHECKING:
     from morphing_wing.path import Path
 
@@ -59,6 +61,8 @@ def versions() -> dict[str, str]:
         found["morphing_wing"] = metadata.version("morphing-wing")
     except metadata.PackageNotFoundError:
         found["morphing_wing"] = "not installed"
+    used = blas.describe()
+    found["blas"] = " ".join(filter(None, (used["library"], used["version"], used["core"])))
     return found
 
 
