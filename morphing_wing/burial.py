@@ -1,7 +1,8 @@
-"""Freeing PETSc solvers under MPI.
+"""Freeing PETSc objects under MPI.
 
-To free a solver all ranks must act together, but each rank's garbage collector finds it dead at a
-moment of its own. So dead solvers wait here until a collective occasion, or the end of the program.
+To free one all ranks must act together, but each rank's garbage collector finds it dead at a moment
+of its own. So petsc4py keeps dead vectors and matrices until it is told that all ranks are there,
+and dead solvers wait here until a collective occasion, or the end of the program.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import weakref
 from typing import Any
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 _numbers = itertools.count()
 _waiting: dict[int, tuple[Any, ...]] = {}
@@ -34,6 +36,7 @@ def bury(comm: MPI.Comm) -> None:
         for number in sorted(set.intersection(*comm.allgather(_dead))):
             _dead.discard(number)
             _free(_waiting.pop(number))
+        PETSc.garbage_cleanup(comm)
 
 
 def _free(parts: tuple[Any, ...]) -> None:

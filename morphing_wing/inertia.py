@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from mpi4py import MPI
 from petsc4py import PETSc
 
 
@@ -60,9 +61,11 @@ class InertiaCholesky:
         self.negative_pivots = 0
         self.factorisations = 0
         self.stale = True
-        self.shortened = False
         self._prefix = prefix
         self._inner: PETSc.PC | None = None
+        self._unit_value: float | None = None
+        self._diagonal: PETSc.Vec | None = None
+        self._changed = False
 
     # -- called by PETSc ----------------------------------------------------------------------
 
@@ -72,8 +75,7 @@ class InertiaCholesky:
         if not self.stale:
             return
         self.stale = False
-        _, self._matrix = pc.getOperators()
-        self._diagonal = self._matrix.getDiagonal()
+        self._take(pc.getOperators()[1])
         self._factorise()
         if self.regularisation is None:
             return
@@ -88,32 +90,31 @@ class InertiaCholesky:
         self._inner.apply(b, y)
         if self.regularisation is not None:
             length = self._length(y)
-            self.shortened = length > self.regularisation.longest_step
-            if self.shortened:
+            if length > self.regularisation.longest_step:
                 y.scale(self.regularisation.longest_step / length)
 
     def inspect(self, matrix: PETSc.Mat) -> None:
         """Factorise a tangent without mass, to count its negative pivots."""
-        self._matrix, self._diagonal = matrix, matrix.getDiagonal()
-        self.amount, self._changed = 0.0, False
+        self._take(matrix)
+        self.amount = 0.0
         self._factorise()
 
     def destroy(self, pc: PETSc.PC | None = None) -> None:
         """Free the factors."""
         if self._inner is not None:
             self._inner.destroy()
+            self._diagonal.destroy()
             self._inner = None
 
     def memory(self) -> dict[str, float]:
         """Return what the next solve inherits from those before; the same on all ranks."""
         found = {"mass_amount": self.amount}
-        return found | ({"mass_unit": self._unit_value} if hasattr(self, "_unit_value") else {})
+        return found | ({} if self._unit_value is None else {"mass_unit": self._unit_value})
 
     def recall(self, memory: Mapping[str, float]) -> None:
         """Take over what `memory` returned, also in an earlier run."""
         self.amount = memory["mass_amount"]
-        if "mass_unit" in memory:
-            self._unit_value = memory["mass_unit"]
+        self._unit_value = memory.get("mass_unit", self._unit_value)
 
     # -- the rule -----------------------------------------------------------------------------
 
@@ -130,7 +131,7 @@ class InertiaCholesky:
 
     def _unit(self) -> float:
         """Return the smallest mass factor: it adds a ten-millionth of the mean stiffness."""
-        if not hasattr(self, "_unit_value"):
+        if self._unit_value is None:
             mass = self.regularisation.mass
             comm = self._matrix.comm.tompi4py()
             diagonal = np.abs(self._diagonal.getArray(readonly=True))[mass > 0]
@@ -141,7 +142,12 @@ class InertiaCholesky:
         values = np.abs(y.getArray(readonly=True)[self.regularisation.displacements])
         longest = float(values.max()) if len(values) else 0.0
         longest = longest if np.isfinite(longest) else np.inf
-        return self._matrix.comm.tompi4py().allreduce(longest, op=_max())
+        return self._matrix.comm.tompi4py().allreduce(longest, op=MPI.MAX)
+
+    def _take(self, matrix: PETSc.Mat) -> None:
+        if self._diagonal is not None:
+            self._diagonal.destroy()
+        self._matrix, self._diagonal, self._changed = matrix, matrix.getDiagonal(), False
 
     def _factorise(self) -> None:
         if self._inner is None:
@@ -159,17 +165,12 @@ class InertiaCholesky:
             diagonal.array += self.amount * self.regularisation.mass
             self._matrix.setDiagonal(diagonal)
             self._matrix.assemble()
+            diagonal.destroy()
             self._changed = True
-        elif getattr(self, "_changed", False):
+        elif self._changed:
             self._matrix.setDiagonal(self._diagonal)
             self._matrix.assemble()
         self._inner.setOperators(self._matrix)
         self._inner.setUp()
         self.factorisations += 1
         self.negative_pivots = self._inner.getFactorMatrix().getMumpsInfog(12)
-
-
-def _max():
-    from mpi4py import MPI
-
-    return MPI.MAX

@@ -70,6 +70,8 @@ class Newton:
         See `InertiaCholesky`.
     max_iterations
         Newton iterations after which a load step is given up.
+    relative_tolerance
+        Largest residual of a solution, relative to the force that `solve` is given.
     before_tangent
         Called before each tangent with the number of the iteration in the solve.
     """
@@ -94,7 +96,6 @@ class Newton:
         self._x = system.x.duplicate()
         self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
         self._snes = self._create(prefix, max_iterations)
-        bury(system.comm)
         register(self, system.comm, self.factor, self._snes)
 
     def _create(self, prefix: str, max_iterations: int) -> PETSc.SNES:
@@ -126,15 +127,17 @@ class Newton:
         reference_force
             Norm in N of the loads; the tolerance is relative to it.
         """
+        bury(self.system.comm)
         self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
         self._smallest = np.inf
         self.system.push(self._x)
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
-        if reason > 0 and self.factor.amount > 0.0:
-            # The last factor was of K + a M, which hides what K itself says of stability.
-            self.system.tangent()
+        if reason > 0 and (self.factor.amount > 0.0 or self.factor.factorisations == 0):
+            # The last factor was of K + a M, which hides what K itself says of stability; or there
+            # is none yet, where the first state is at rest.
+            self._assemble(self._snes.getIterationNumber())
             self.factor.inspect(self.system.matrix)
         return NewtonResult(
             converged=reason > 0,
@@ -151,10 +154,13 @@ class Newton:
 
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self.system.pull(x)
-        if self._before_tangent is not None:
-            self._before_tangent()(snes.getIterationNumber())
-        self.system.tangent()
+        self._assemble(snes.getIterationNumber())
         self.factor.stale = True
+
+    def _assemble(self, iteration: int) -> None:
+        if self._before_tangent is not None:
+            self._before_tangent()(iteration)
+        self.system.tangent()
 
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reason = PETSc.SNES.ConvergedReason

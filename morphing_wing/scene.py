@@ -252,6 +252,8 @@ class Scene:
                 constant.value = value
         with_loads.axpy(-1.0, without)
         force = with_loads.norm()
+        for vector in (x, with_loads, without):
+            vector.destroy()
         return force if np.isfinite(force) else 0.0
 
 

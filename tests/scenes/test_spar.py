@@ -154,8 +154,9 @@ def test_beyond_the_ballooning_pressure_load_control_stops_and_says_where():
 
 
 @pytest.mark.quick
-def test_no_pressure_leaves_the_spar_straight():
+def test_no_pressure_leaves_the_spar_straight_and_stable():
     state = inflated(spar(2, "Q1/P0", plain=True), upper=0.0)[-1]
+    assert (state.newton_iterations, state.negative_pivots) == (0, 0)
     assert state.measures["span_angle_deg"] == pytest.approx(0.0, abs=1e-12)
     assert state.energy_Nmm == 0.0
 
