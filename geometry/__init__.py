@@ -1,4 +1,4 @@
-"""Geometry: parameters to points, cells and named regions; numpy and gmsh only."""
+"""Geometry: parameters to points, cells and named regions; numpy and scipy only, no DOLFINx."""
 
 from .aerofoil import Aerofoil
 from .rib import RibGeometry

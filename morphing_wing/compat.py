@@ -40,11 +40,6 @@ else:
     scalar_type = PETSc.ScalarType
 
 
-def version() -> str:
-    """Return the DOLFINx version string."""
-    return dolfinx.__version__
-
-
 # -- meshes -----------------------------------------------------------------------------------
 
 
@@ -92,14 +87,6 @@ def facet_tags(mesh: Any, facets: np.ndarray, values: np.ndarray) -> Any:
     facets, first = np.unique(np.asarray(facets, dtype=np.int32), return_index=True)
     values = np.asarray(values, dtype=np.int32)[first]
     return dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, facets, values)
-
-
-def cell_tags(mesh: Any, cells: np.ndarray, values: np.ndarray) -> Any:
-    """Return mesh tags on local cells."""
-    order = np.argsort(cells)
-    cells = np.asarray(cells, dtype=np.int32)[order]
-    values = np.asarray(values, dtype=np.int32)[order]
-    return dolfinx.mesh.meshtags(mesh, mesh.topology.dim, cells, values)
 
 
 def cell_facets(mesh: Any) -> np.ndarray:
@@ -155,12 +142,6 @@ def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
     return {}
 
 
-def interpolation_points(space: Any) -> np.ndarray:
-    """Return the reference points at which a space interpolates."""
-    points = space.element.interpolation_points
-    return points() if callable(points) else points
-
-
 # -- forms and assembly -----------------------------------------------------------------------
 
 
@@ -169,12 +150,6 @@ def form(expression: Any) -> Any:
     _forget_interrupted_compilations()
     with _quiet_compiler():
         return fem.form(expression, **_FORM_KEYWORDS)
-
-
-def expression(value: Any, points: np.ndarray) -> Any:
-    """Compile a UFL expression for evaluation at reference points."""
-    with _quiet_compiler():
-        return fem.Expression(value, points, **_FORM_KEYWORDS)
 
 
 @cache

@@ -72,7 +72,7 @@ def plot_path(path: Path, file: str | os.PathLike) -> pathlib.Path:
             if line in table:
                 _curve(above, table, load, line, colour,
                        f"${symbol}$ {what}, deflection line", light=True)
-        _finish(above, table, load, [ANGLES[angle][1] for angle in angles])
+        _finish(above, table, [ANGLES[angle][1] for angle in angles])
         above.set_title(f"{path.scene.name.capitalize()}, {path.scene.fidelity}, "
                         f"{path.scene.dofs:,} unknowns",
                         loc="left", pad=6 if path.converged else 22)
@@ -119,7 +119,7 @@ def plot_paths(
         figure, (axes,) = _figure((7.6, 5.0), rows=1)
         for number, (label, table) in enumerate(tables.items()):
             _curve(axes, table, load, angle, COLOURS[number % len(COLOURS)], label)
-        _finish(axes, first, load, [ANGLES[angle][1]] if angle in ANGLES else [])
+        _finish(axes, first, [ANGLES[angle][1]] if angle in ANGLES else [])
         axes.set_xlabel(AXES.get(load, (1.0, load))[1])
         if angle not in ANGLES:
             axes.set_ylabel(angle)
@@ -171,7 +171,7 @@ def _curve(
     axes.plot([], [], label=label, **look, **marker)
 
 
-def _finish(axes: Axes, table: pd.DataFrame, load: str, symbols: list[str]) -> None:
+def _finish(axes: Axes, table: pd.DataFrame, symbols: list[str]) -> None:
     axes.set_ylabel("angle " + ", ".join(f"${symbol}$" for symbol in symbols) + ", degrees")
     axes.axhline(0.0, color="#999", linewidth=0.8, zorder=0.5)
     if "contact" in table and table["contact"].any():

@@ -71,6 +71,7 @@ class Elastomer:
             self.iterate = None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
+        self._compiled_probes: dict[str, list[Any]] = {}
 
     # -- energies -----------------------------------------------------------------------------
 
@@ -135,11 +136,9 @@ class Elastomer:
         """Return the displacement as a function of its own, for pictures and files."""
         if self.p is None:
             return self.function
-        if not hasattr(self, "_drawn"):
-            space, self._drawn_dofs = self.function.function_space.sub(0).collapse()
-            self._drawn = fem.Function(space, name="elastomer")
-        self._drawn.x.array[:] = self.function.x.array[self._drawn_dofs]
-        return self._drawn
+        drawn, dofs = self._drawn
+        drawn.x.array[:] = self.function.x.array[dofs]
+        return drawn
 
     def n_pressures(self) -> int:
         """Global number of pressure unknowns."""
@@ -153,9 +152,14 @@ class Elastomer:
     def _constant(self, value: float) -> fem.Constant:
         return fem.Constant(self.mesh, compat.scalar_type(value))
 
+    @cached_property
+    def _drawn(self) -> tuple[fem.Function, Any]:
+        """A function for the displacement of a mixed form, and its dofs in the mixed one."""
+        space, dofs = self.function.function_space.sub(0).collapse()
+        return fem.Function(space, name="elastomer"), dofs
+
     def _probes(self, face: str) -> list[Any]:
-        if not hasattr(self, "_compiled_probes"):
-            self._compiled_probes: dict[str, list[Any]] = {}
+        """Return compiled integrals over a face: area vector, displacement, area."""
         if face not in self._compiled_probes:
             area_vector = cofactor(deformation_gradient(self.u)) * self.normal
             integrands = [*(area_vector[i] for i in range(3)), *(self.u[i] for i in range(3))]

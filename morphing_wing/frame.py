@@ -71,7 +71,7 @@ class BeamFrame:
             table[space.dofmap.cell_dofs(cell)[0]] = values[bar].ravel()
         return function
 
-    def at_ends(self, kind: str, integrand: Any, weights: np.ndarray | None = None) -> Any:
+    def at_ends(self, kind: str, integrand: Any) -> Any:
         """Return the sum of an integrand over the ribs' roots or tails as a UFL functional.
 
         Parameters
@@ -80,16 +80,12 @@ class BeamFrame:
             ``"root"`` or ``"tail"``.
         integrand
             UFL, evaluated at the end points.
-        weights : (n_ribs,) array, optional
-            Factor of each rib; default 1.
         """
         # Root and tail points alone belong to one cell only: they are the exterior facets.
         frame = self.frame
-        weights = np.ones(len(frame.roots)) if weights is None else np.asarray(weights, float)
-        chosen = frame.kinds == frame.names.index(kind)
-        factor = self.cellwise(np.where(chosen, weights[frame.ribs], 0.0))
+        chosen = self.cellwise((frame.kinds == frame.names.index(kind)).astype(float))
         ds = ufl.ds(domain=self.mesh, metadata={"quadrature_degree": 1})
-        return factor * integrand * ds
+        return chosen * integrand * ds
 
     def end_dofs(self, kind: str, rib: int) -> np.ndarray:
         """Return the six local dofs of a rib's root or tail where this rank has them, else none.

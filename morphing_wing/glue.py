@@ -69,7 +69,7 @@ class Glue:
     """
 
     def __init__(self, body: Elastomer, ribs: BeamFrame, wing: WingGeometry) -> None:
-        self._ribs, self._wing = ribs, wing
+        self._ribs = ribs
         self._groups: list[tuple[str, int, np.ndarray]] = []
         space = compat.discontinuous_space(body.mesh, 0, (6,))
         self.function = fem.Function(space, name="feet")

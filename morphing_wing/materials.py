@@ -1,7 +1,6 @@
 """Materials: the silicone of the spar and skin, the resin of the ribs.
 
-``DRAGON_SKIN_30`` and ``RESIN`` carry the paper's constants (section 1 of the reference numbers);
-moduli are in MPa.
+``DRAGON_SKIN_30`` and ``RESIN`` carry the paper's constants; moduli are in MPa.
 """
 
 from __future__ import annotations

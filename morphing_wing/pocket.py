@@ -16,7 +16,6 @@ class Pocket:
     """Deformed points of the pocket's sides and of the ribs' axes, known to every rank."""
 
     def __init__(self, body: Elastomer, ribs: BeamFrame | None, wing: WingGeometry) -> None:
-        self._comm = body.comm
         displacement = body.displacement()
         self._sources = [
             _Points(body.comm, displacement, body.face_facets(side))

@@ -31,14 +31,13 @@ class Block:
         The finite-element function (displacement, mixed, beam, ...).
     constrained
         Local dofs (flattened) that keep the value that the function holds.
-    shared
-        For a shared block: the number in ``of`` of the dof that each local dof stands for is set
-        by ``EquilibriumSystem``; -1 where a dof stands for nothing.
+    numbers
+        Global number of each local dof, set by `EquilibriumSystem`; -1 for a dof of a shared block
+        that stands for nothing.
     """
 
     function: Any
     constrained: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
-    shared: np.ndarray | None = None
     numbers: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64), init=False)
 
     @property
@@ -113,7 +112,7 @@ class EquilibriumSystem:
         ``tangent_corrections[i]`` is a bilinear form of block i added to its tangent, or None.
         """
         self._residuals, self._tangents = [], []
-        self._energies = [compat.form(energy) for energy in energies]
+        self._energies = list(energies)
         for i, block in enumerate(self.blocks):
             residual = _sum(_derivative(energy, block.function, 0) for energy in energies)
             if residual is None:
@@ -130,11 +129,6 @@ class EquilibriumSystem:
                     self._tangents.append((i, j, compat.form(tangent)))
         if self._matrix is None:
             self._matrix = self._create_matrix()
-
-    def trial(self, i: int) -> tuple[Any, Any]:
-        """Return the test and trial function of block i, for tangent corrections."""
-        space = self.blocks[i].function.function_space
-        return ufl.TestFunction(space), ufl.TrialFunction(space)
 
     @property
     def matrix(self) -> PETSc.Mat:
@@ -204,7 +198,8 @@ class EquilibriumSystem:
 
     def energies(self) -> list[float]:
         """Evaluate each energy, in N mm, over all ranks."""
-        return [compat.assemble_scalar(self.comm, energy) for energy in self._energies]
+        forms = map(compat.form, self._energies)
+        return [compat.assemble_scalar(self.comm, form) for form in forms]
 
     # -- numbering ----------------------------------------------------------------------------
 
