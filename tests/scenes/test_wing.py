@@ -73,7 +73,6 @@ def test_loads_that_nobody_asks_for_cost_no_integral():
     assert set(scene.loads) == {"upper_MPa", "cable_N"}
 
 
-@pytest.mark.quick
 @pytest.mark.parametrize("changes, present, absent", [
     (SPAR, {"span_angle_deg"}, {"chord_angle_deg", "rib_1_rotation_deg", "contact"}),
     (NO_SKIN, {"chord_angle_deg", "rib_1_rotation_deg"}, {"gap_mm", "contact"}),
@@ -253,7 +252,6 @@ def test_contact_is_marked_from_the_tension_on_at_which_the_skin_meets_a_rib():
 @pytest.mark.parametrize("part, contact", [(0.0, 0.0), (0.5, 0.0), (1.1, 1.0)])
 def test_upper_skin_pushed_through_is_contact(changes, part, contact):
     scene = wing(**changes)
-    actuated(scene, upper=0.0)
     points = scene.body.function.function_space.tabulate_dof_coordinates()
     x, y, _ = points.T
     # Half-way along the pocket, by a part of the way down to the lower skin or the rib's top.
