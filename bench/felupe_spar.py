@@ -8,13 +8,11 @@ ratio). Both use MUMPS, FElupe through petsc4py. Each case runs in a process of 
 
 import argparse
 import importlib.util
-import json
-import resource
-import subprocess
 import sys
 import time
 
 import numpy as np
+from child import in_a_child, peak_MB, say
 from rich.console import Console
 from rich.table import Table
 
@@ -36,7 +34,7 @@ def main():
     arguments = parser.parse_args()
     if arguments.one:
         code, element, n_cells, pressure = arguments.one
-        print(json.dumps(measured(code, element, int(n_cells), float(pressure))))
+        measured(code, element, int(n_cells), float(pressure))
         return
     if importlib.util.find_spec("felupe") is None:
         sys.exit("FElupe is not installed: pip install felupe tensortrax")
@@ -46,7 +44,7 @@ def main():
     for column in columns:
         table.add_column(column, justify="right")
     for case in CASES["all" if arguments.all else "quick"]:
-        ours, theirs = (in_a_child(code, *case) for code in ("ours", "felupe"))
+        ours, theirs = (in_a_child(__file__, code, *case) for code in ("ours", "felupe"))
         element, n_cells, pressure = case
         name = (element, str(n_cells), f"{1000 * pressure:g}", f"{PUBLISHED[case]:.4f}")
         both = [f"{found[figure]:{form}}" for figure, form in
@@ -56,25 +54,17 @@ def main():
     Console(width=110).print(table)
 
 
-def in_a_child(code, *case):
-    """Run one case in a process of its own, for its own peak of memory."""
-    command = [sys.executable, __file__, "--one", code, *map(str, case)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(done.stderr)
-    return json.loads(done.stdout.splitlines()[-1])
-
-
 def measured(code, element, n_cells, pressure):
-    """Return angle, seconds and peak memory of one case."""
-    import morphing_wing  # noqa: F401  prepares BLAS for both codes
+    """Run one case and say its angle, seconds and peak memory."""
+    import morphing_wing  # noqa: F401, I001  prepares BLAS for both codes
+    from mpi4py import MPI
 
     solve = by_this_package if code == "ours" else by_felupe
     solve(element, 1, 0.005)  # compiles
     clock = time.perf_counter()
     angle = solve(element, n_cells, pressure)
-    return {"angle": angle, "seconds": time.perf_counter() - clock,
-            "peak_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024}
+    say(MPI.COMM_SELF, {"angle": angle, "seconds": time.perf_counter() - clock,
+                        "peak_MB": peak_MB(MPI.COMM_SELF)})
 
 
 def by_this_package(element, n_cells, pressure):

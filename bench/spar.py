@@ -7,12 +7,10 @@ out the compilation of the forms and count assembly and factorisation apart.
 """
 
 import argparse
-import json
-import resource
-import subprocess
 import sys
 import time
 
+from child import in_a_child, peak_MB, say
 from rich.console import Console
 from rich.table import Table
 
@@ -30,7 +28,7 @@ def main():
                         help="run one case here and print its figures as JSON")
     arguments = parser.parse_args()
     if arguments.one:
-        print(json.dumps(measured(arguments.one[0], int(arguments.one[1]))))
+        measured(arguments.one[0], int(arguments.one[1]))
         return
     table = Table(title="Spar of Section 3.3 at 20 kPa, one load step, one core")
     for column in ("fidelity", "N", "dofs", "angle, deg", "error, %", "iterations",
@@ -38,7 +36,7 @@ def main():
         table.add_column(column, justify="right")
     for n_cells in arguments.cells:
         for fidelity in arguments.fidelity:
-            found = in_a_child(fidelity, n_cells)
+            found = in_a_child(__file__, fidelity, n_cells)
             exact = CONVERGED.get(n_cells)
             error = "" if exact is None else f"{100 * (found['angle'] / exact - 1):+.2f}"
             table.add_row(
@@ -48,17 +46,10 @@ def main():
     Console(width=110).print(table)
 
 
-def in_a_child(fidelity, n_cells):
-    """Run one case in a process of its own, for its own peak of memory."""
-    command = [sys.executable, __file__, "--one", fidelity, str(n_cells)]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(done.stderr)
-    return json.loads(done.stdout.splitlines()[-1])
-
-
 def measured(fidelity, n_cells):
-    """Return the figures of one case."""
+    """Run one case and say its figures."""
+    from mpi4py import MPI
+
     from morphing_wing.geometry.spar import SparGeometry
     from morphing_wing.materials import DRAGON_SKIN_30
     from morphing_wing.spar import Spar
@@ -74,12 +65,12 @@ def measured(fidelity, n_cells):
     seconds = time.perf_counter() - clock
     if not path.converged or len(path) != 1:
         sys.exit(f"fidelity {fidelity}, N = {n_cells}: {len(path)} steps, {path.reason}")
-    return {
+    say(MPI.COMM_SELF, {
         "dofs": scene.dofs, "angle": path[0].measures["span_angle_deg"],
         "iterations": path[0].newton_iterations, "assembly": timed.seconds["assembly"],
         "factor": timed.seconds["factor"], "seconds": seconds,
-        "peak_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
-    }
+        "peak_MB": peak_MB(MPI.COMM_SELF),
+    })
 
 
 class Stopwatch:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from morphing_wing.errors import require
+from morphing_wing.errors import is_count, is_number, require
 
 from .frame import Frame, local_axes
 from .section import Circle, Rectangle, Section, Stiffened
@@ -66,13 +66,13 @@ class RibGeometry:
     def __post_init__(self) -> None:
         """Refuse what cannot be built."""
         for field in fields(self)[:4]:
-            require(_positive(getattr(self, field.name)), field.name, getattr(self, field.name),
-                    "mm", "a finite length greater than 0 mm")  # fmt: skip
+            value = getattr(self, field.name)
+            ok = is_number(value) and value > 0
+            require(ok, field.name, value, "mm", "a finite length greater than 0 mm")
         angle, n = self.crossing_angle, self.n_cells
-        require(_positive(angle) and angle < 180.0, "crossing_angle", angle, "degrees",
+        require(is_number(angle) and 0 < angle < 180.0, "crossing_angle", angle, "degrees",
                 "between 0 and 180 degrees, both excluded")  # fmt: skip
-        whole = isinstance(n, (int, np.integer)) and not isinstance(n, bool)
-        require(whole and n >= 1, "n_cells", n, "", "a whole number of at least 1")
+        require(is_count(n), "n_cells", n, "", "a whole number of at least 1")
         require(self.section in SECTIONS, "section", self.section, "", "'flush' or 'square'")
         require(isinstance(self.bosses, bool), "bosses", self.bosses, "", "True or False")
         room = min(self.shaft_length / 2.0, self.height, self.pitch)
@@ -232,8 +232,3 @@ class _Builder:
         self.bar(a, inner[0], end_kind)
         self.bar(inner[0], inner[1], kind)
         return self.bar(inner[1], b, end_kind)
-
-
-def _positive(value: object) -> bool:
-    number = isinstance(value, (int, float, np.integer, np.floating))
-    return number and not isinstance(value, bool) and math.isfinite(value) and value > 0

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from morphing_wing.errors import require
+from morphing_wing.errors import is_count, is_number, require
 
 from .hexmesh import HexMesh, breakpoints, geometric, swept_blocks, two_sided, uniform
 
@@ -97,12 +97,9 @@ class SparGeometry:
         """Refuse what cannot be built."""
         for field in fields(self)[:-1]:
             value = getattr(self, field.name)
-            number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-            ok = number and np.isfinite(value) and value > 0
+            ok = is_number(value) and value > 0
             require(ok, field.name, value, "mm", "a finite length greater than 0 mm")
-        whole = isinstance(self.n_cells, (int, np.integer)) and not isinstance(self.n_cells, bool)
-        ok = whole and self.n_cells >= 1
-        require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
+        require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
 
     @classmethod
     def validation(cls, n_cells: int = 20) -> SparGeometry:

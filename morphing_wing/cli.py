@@ -19,7 +19,7 @@ from typing import Annotated, Any
 import typer
 from mpi4py import MPI
 
-from morphing_wing.errors import InputError
+from morphing_wing.errors import InputError, one_line
 from morphing_wing.together import (
     BAD_INPUT,
     DONE,
@@ -185,8 +185,3 @@ def warn_in_one_line(message: Warning | str, *_: Any, **__: Any) -> None:
     """Show a warning to the user without the line of code it comes from."""
     if MPI.COMM_WORLD.rank == 0:
         print(f"morphing-wing: {one_line(message)}", file=sys.stderr)
-
-
-def one_line(said: object) -> str:
-    """Return the text of an exception or warning without line breaks."""
-    return " ".join(str(said).split())

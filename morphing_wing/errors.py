@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import numbers
 from typing import Any
 
-__all__ = ["InputError", "require"]
+__all__ = ["InputError", "is_count", "is_number", "one_line", "require"]
 
 
 class InputError(ValueError):
@@ -48,6 +49,16 @@ def require(condition: bool, name: str, value: Any, unit: str, allowed: str) -> 
     raise InputError(f"{name} = {measured}: must be {allowed}")
 
 
+def is_number(value: object) -> bool:
+    """Whether ``value`` is a real number; True and False are not meant as numbers here."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def is_count(value: object) -> bool:
+    """Whether ``value`` is a whole number of at least 1."""
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool) and value >= 1
+
+
 def is_finite(value: Any) -> bool:
     """Whether no number in ``value`` is NaN or infinite; what is not a number counts as finite."""
     if isinstance(value, (list, tuple)):
@@ -66,3 +77,8 @@ def plain(value: Any) -> str:
         return f"{float(value):.10g}"
     except (TypeError, ValueError, OverflowError):
         return str(value)
+
+
+def one_line(said: object) -> str:
+    """Return the text of an exception or warning without line breaks."""
+    return " ".join(str(said).split())

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numbers
 from dataclasses import dataclass
 
-from morphing_wing.errors import require
+from morphing_wing.errors import is_number, require
 
 __all__ = ["DRAGON_SKIN_30", "RESIN", "Elastic", "Yeoh"]
 
@@ -110,11 +110,6 @@ class Elastic:
     def lame_modulus(self) -> float:
         """Lame's first modulus lambda in MPa."""
         return self.E * self.nu / ((1.0 + self.nu) * (1.0 - 2.0 * self.nu))
-
-
-def is_number(value: object) -> bool:
-    """Whether ``value`` is a real number; True and False are not meant as numbers here."""
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
 DRAGON_SKIN_30 = Yeoh((0.117, -0.0006865))

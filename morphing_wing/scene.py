@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,14 +13,13 @@ from mpi4py import MPI
 
 from . import compat
 from . import restart as restart_files
-from .errors import InputError, require
+from .errors import InputError
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
 from .path import Path, State
 from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
-
-UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm"}
+from .targets import load_targets
 
 
 class Scene:
@@ -44,7 +44,6 @@ class Scene:
     multiplicity = 1
 
     system: EquilibriumSystem
-    newton: Newton
 
     def __init__(self, fidelity: str, comm: MPI.Comm | None) -> None:
         self.fidelity = fidelity
@@ -62,6 +61,11 @@ class Scene:
     def dofs(self) -> int:
         """Global number of unknowns."""
         return self.system.size
+
+    @cached_property
+    def newton(self) -> Newton:
+        """The solver, made when it is first needed. Collective then."""
+        return self._newton()
 
     def follow(
         self,
@@ -85,7 +89,7 @@ class Scene:
             Such a folder or file: go on after the last step in it, on any number of ranks. The
             path begins with its states, without the fields of all but the last.
         """
-        targets = _targets(self.load_names, loads)
+        targets = load_targets(self.load_names, loads)
         clock = time.perf_counter()
         earlier = None if resume is None else restart_files.read(resume, self)
         if earlier is not None:
@@ -169,8 +173,7 @@ class Scene:
 
     def show(self, state: State) -> None:
         """Copy a state's fields into the functions."""
-        for block in self.system.blocks:
-            block.function.x.array[:] = state.fields[block.function.name]
+        self.set_unknowns([state.fields[b.function.name] for b in self.system.blocks])
 
     # -- for restarts -------------------------------------------------------------------------
 
@@ -225,8 +228,6 @@ class Scene:
     def _use(self, in_use: tuple[str, ...]) -> None:
         energies, corrections = self._functional(in_use)
         self.system.set_energies(energies, corrections)
-        if not hasattr(self, "newton"):
-            self.newton = self._newton()
         self._stored_forms = [compat.form(energy) for energy in self._stored()]
         self._in_use = in_use
         self.set_load(self._load)
@@ -262,30 +263,3 @@ def choose_fidelity(name: str, allowed: Sequence[str]) -> str:
     if name not in allowed:
         raise InputError(f"fidelity = {name!r}: must be one of {', '.join(allowed)}")
     return name
-
-
-def _targets(
-    names: Sequence[str], loads: Mapping[str, float | Sequence[float] | None]
-) -> list[dict[str, float]]:
-    """Return one dict of all loads for each wanted point."""
-    arrays = []
-    for name in names:
-        given = loads.get(name)
-        word, unit = name.rsplit("_", 1)
-        try:
-            array = np.atleast_1d(np.asarray(0.0 if given is None else given, dtype=float))
-        except (TypeError, ValueError):
-            raise InputError(
-                f"{word} = {given!r}: must be a number or a sequence of numbers in {UNITS[unit]}"
-            ) from None
-        ok = array.ndim == 1 and array.size > 0 and bool(np.isfinite(array).all())
-        require(ok, word, given, UNITS[unit], "finite, a number or a sequence of numbers")
-        arrays.append(array)
-    try:
-        table = np.broadcast_arrays(*arrays)
-    except ValueError:
-        sizes = ", ".join(f"{n.rsplit('_', 1)[0]} {len(a)}"
-                          for n, a in zip(names, arrays, strict=True))
-        raise InputError(f"loads have lengths {sizes}: must be equal, or 1") from None
-    rows = np.stack(table, axis=1)
-    return [dict(zip(names, map(float, row), strict=True)) for row in rows]

@@ -27,7 +27,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from morphing_wing.errors import InputError, require
+from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.geometry.wing import WingGeometry
@@ -199,8 +199,3 @@ def located(where: str, model: type[Keys] | None = None) -> Iterator[None]:
         said = str(problem)
         is_key = model is not None and said.split(" ")[0].rstrip(":") in model.model_fields
         raise InputError(f"{where}{'.' if is_key else ': '}{said}") from None
-
-
-def one_line(problem: Exception) -> str:
-    """Return what an exception says, without line breaks."""
-    return " ".join(str(problem).split())
