@@ -27,13 +27,13 @@ def area(section, height, start, end):
     return 2.0 * quad(lambda x: float(height(section, x)), start, end, limit=200)[0]
 
 
-def test_prototype_has_1856_cells_of_spar_and_740_of_skin():
+def test_prototype_has_2232_cells_of_spar_and_740_of_skin():
     mesh = wing_mesh(WingGeometry.prototype(), WingMeshing.coarse())
     assert {name: len(cells) for name, cells in mesh.regions.items()} == {
-        "spar": 1856, "skin": 740}
+        "spar": 2232, "skin": 740}
     bare = wing_mesh(WingGeometry.prototype(skin_thickness=None), WingMeshing.coarse())
     assert {name: len(cells) for name, cells in bare.regions.items() if len(cells)} == {
-        "spar": 1856}
+        "spar": 2232}
 
 
 @MESHINGS
