@@ -121,7 +121,10 @@ class Rib(Scene):
             See `Scene.follow`.
         """
         check_tension(cable)
-        self._guide.value = self._tail + _guide(guide)
+        place = self._tail + _guide(guide)
+        if not np.array_equal(place, self._guide.value):
+            self._guide.value = place
+            self._in_use = None  # to be taken up anew: work counts from the new guide on
         self.primary_load = "cable_N"
         return self.follow({"cable_N": cable}, on_step, on_cut, restart, resume)
 

@@ -76,6 +76,14 @@ def test_cable_pulls_down_as_the_equal_moment_at_small_load():
     assert np.radians(tiny["chord_angle_deg"]) == pytest.approx(deflection, rel=1e-4)
 
 
+def test_a_cable_led_to_another_guide_under_tension_does_no_work_by_that():
+    pulled = rib(RibGeometry.prototype())
+    before = pulled.pull(cable=0.05)[-1]
+    after = pulled.pull(cable=0.05, guide=(0.0, -1000.0, 0.0))[-1]
+    gained = after.energy_Nmm - before.energy_Nmm
+    assert after.external_work_Nmm - before.external_work_Nmm == pytest.approx(gained, rel=0.1)
+
+
 def test_symmetric_layers_keep_the_tail_in_its_plane():
     bent = rib(RibGeometry.prototype(6, "square"))
     bent.bend(torque=20.0)
