@@ -6,11 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import ufl
 from dolfinx import fem
+from numpy.polynomial import Legendre, Polynomial
 
 from . import compat
 from .elastomer import Elastomer
+from .errors import require
 from .forms.adhesive import adhesive_energy, foot_displacement
 from .forms.beam import displacement, rotation_vector
 from .forms.mixed_point import mixed_point_correction
@@ -20,7 +21,11 @@ from .geometry.wing import WingGeometry
 from .iterate import Iterate
 from .system import Block, SharedUnknowns
 
-_QUADRATURE_DEGREE = 9  # patches need not end on mesh lines: many points resolve their edges
+# Patches need not end on mesh lines: on a facet, a patch is the polynomial of this degree in each
+# direction with which the integrals of all polynomials up to that degree are those over the patch
+# (its projection). The glue's energy is of that degree, for quadratic displacements: it is exact.
+_PATCH_DEGREE = 4
+_QUADRATURE_DEGREE = 2 * _PATCH_DEGREE
 
 
 def with_glued_faces(grid: HexMesh, wing: WingGeometry) -> HexMesh:
@@ -55,6 +60,33 @@ def _boxes(wing: WingGeometry, face: str) -> np.ndarray:
     return np.stack([end + low, end + high], axis=1)
 
 
+def _patch_on_facet(
+    low: np.ndarray, high: np.ndarray, box: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the part of a facet in a box as a polynomial along each axis.
+
+    The facet's bounds are ``low`` and ``high``. Along axes where it is flat or not cut the
+    polynomial is 1, else ``sum_k c_k P_k`` with Legendre's polynomials and ``c_k = (2k + 1)/2``
+    times the integral of P_k over the part of [-1, 1] that lies in the box.
+
+    Returns
+    -------
+    middle, half : (3,) arrays
+        Of the facet's bounds, mm; half is 1 where it is flat.
+    coefficients : (3, degree + 1) array
+        Of the powers of (x - middle)/half.
+    """
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    half[half < 1e-9] = 1.0
+    coefficients = np.zeros((3, _PATCH_DEGREE + 1))
+    for axis, (start, end) in enumerate(np.clip((box - middle) / half, -1.0, 1.0).T):
+        basis = [Legendre.basis(k) for k in range(_PATCH_DEGREE + 1)]
+        series = [(k + 0.5) * (P.integ()(end) - P.integ()(start)) for k, P in enumerate(basis)]
+        powers = Legendre(series).convert(kind=Polynomial).coef
+        coefficients[axis, : len(powers)] = powers
+    return middle, half, coefficients
+
+
 class Glue:
     """The adhesive's energy, with the ribs' end unknowns shared by the cells that they touch.
 
@@ -75,7 +107,11 @@ class Glue:
         self.function = fem.Function(space, name="feet")
         self.block = Block(self.function)
         vectors = compat.discontinuous_space(body.mesh, 0, (3,))
-        low, high, origin = (fem.Function(vectors) for _ in range(3))
+        tables = compat.discontinuous_space(body.mesh, 0, (3, _PATCH_DEGREE + 1))
+        middle, half, origin = (fem.Function(vectors) for _ in range(3))
+        patch = fem.Function(tables)
+        half.x.array[:] = 1.0
+        original = compat.original_cells(body.mesh)
         roots = wing.rib_roots()
         tails = roots + np.array([wing.rib.length, 0.0, 0.0])
         ends = {"foot": ("root", roots), "bond": ("tail", tails)}
@@ -83,18 +119,29 @@ class Glue:
         for face in faces:
             kind, points = ends[face]
             corners = body.grid.facet_points(face)
+            facet_of = {int(cell): i for i, (cell, _) in enumerate(body.grid.facets[face])}
+            n_feet = np.zeros(len(corners), dtype=int)
             for rib, box in enumerate(_boxes(wing, face)):
                 chosen = (corners.min(axis=1) < box[1]) & (corners.max(axis=1) > box[0])
+                n_feet += chosen.all(axis=1)
+                # A cell carries the six unknowns of one rib.
+                require(n_feet.max() == 1, "rib_positions", list(wing.rib_positions), "",
+                        "so far apart that no cell of the mesh touches two ribs")
                 cells = body.face_cells(face, chosen.all(axis=1))
                 self._groups.append((kind, rib, cells))
-                for function, value in ((low, box[0]), (high, box[1]), (origin, points[rib])):
-                    table = function.x.array.reshape(-1, 3)
-                    for cell in cells:
-                        table[vectors.dofmap.cell_dofs(cell)[0]] = value
+                for cell in cells:
+                    facet = corners[facet_of[int(original[cell])]]
+                    place, size, part = _patch_on_facet(facet.min(axis=0), facet.max(axis=0), box)
+                    for function, value in (
+                        (middle, place), (half, size), (origin, points[rib]), (patch, part)
+                    ):
+                        table = function.x.array.reshape(-1, value.size)
+                        dof = function.function_space.dofmap.cell_dofs(cell)[0]
+                        table[dof] = value.ravel()
         inside = 1.0
         for i in range(3):
-            between = ufl.And(ufl.gt(body.X[i], low[i]), ufl.lt(body.X[i], high[i]))
-            inside = inside * ufl.conditional(between, 1.0, 0.0)
+            xi = (body.X[i] - middle[i]) / half[i]
+            inside = inside * sum(patch[i, k] * xi**k for k in range(_PATCH_DEGREE + 1))
         stiffness = fem.Constant(body.mesh, compat.scalar_type(wing.glue_stiffness))
 
         def foot(q: Any) -> Any:
