@@ -47,6 +47,17 @@ class InertiaCholesky:
         Number of negative pivots of a stable state: the pressures of a mixed form.
     prefix
         Prefix of the PETSc options of the inner factorisation.
+
+    Attributes
+    ----------
+    amount
+        Factor of the mass that is added at present.
+    negative_pivots, error
+        MUMPS' INFOG(12) and INFOG(1) of the last factor; a negative error: there is none.
+    factorisations
+        Number of factors so far.
+    stale
+        Whether the tangent is newer than the factor.
     """
 
     raises = 100.0
@@ -59,6 +70,7 @@ class InertiaCholesky:
         self.expected_negative = expected_negative
         self.amount = 0.0
         self.negative_pivots = 0
+        self.error = 0
         self.factorisations = 0
         self.stale = True
         self._prefix = prefix
@@ -156,9 +168,8 @@ class InertiaCholesky:
             self._inner.setType("cholesky")
             self._inner.setFactorSolverType("mumps")
             self._inner.setOperators(self._matrix)
-            self._inner.setFactorSetUpSolverType()
             # A ScaLAPACK root would hide its pivots from the count.
-            self._inner.getFactorMatrix().setMumpsIcntl(13, 1)
+            PETSc.Options(self._prefix).setValue("mat_mumps_icntl_13", 1)
             self._inner.setFromOptions()
         if self.amount > 0.0:
             diagonal = self._diagonal.copy()
@@ -173,4 +184,5 @@ class InertiaCholesky:
         self._inner.setOperators(self._matrix)
         self._inner.setUp()
         self.factorisations += 1
-        self.negative_pivots = self._inner.getFactorMatrix().getMumpsInfog(12)
+        factor = self._inner.getFactorMatrix()
+        self.error, self.negative_pivots = factor.getMumpsInfog(1), factor.getMumpsInfog(12)

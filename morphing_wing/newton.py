@@ -141,11 +141,18 @@ class Newton:
             self.factor.inspect(self.system.matrix)
         return NewtonResult(
             converged=reason > 0,
-            reason="converged" if reason > 0 else REASONS.get(reason, f"SNES reason {reason}"),
+            reason=self._words(reason),
             iterations=self._snes.getIterationNumber(),
             residual=self._snes.getFunctionNorm(),
             negative_pivots=self.factor.surplus,
         )
+
+    def _words(self, reason: int) -> str:
+        if reason > 0:
+            return "converged"
+        if self.factor.error < 0:  # else it would pass for the NaN that PETSc makes of it
+            return f"the tangent could not be factorised (MUMPS error {self.factor.error})"
+        return REASONS.get(reason, f"SNES reason {reason}")
 
     # -- called by PETSc ----------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ LENGTH, HEIGHT = 20.0, 0.5
 class Strip:
     """The strip, with a dent of ``imperfection`` mm, and Newton's method."""
 
-    def __init__(self, imperfection, regularised, element="Q2 reduced"):
+    def __init__(self, imperfection, regularised, element="Q2 reduced", cells=10):
         def mapping(x):
             dent = imperfection * np.sin(np.pi * x[:, 0] / LENGTH) ** 2
             return x + np.outer(dent, [0.0, 1.0, 0.0])
@@ -26,8 +26,8 @@ class Strip:
         def faces(midpoints, normals):
             return {"left": normals[:, 0] < 0, "right": normals[:, 0] > 0}
 
-        lines = LENGTH * uniform(10), HEIGHT * uniform(1), uniform(1)
-        grid = swept_blocks(lines, np.ones((10, 1, 1), int), {1: "body"}, mapping, faces)
+        lines = LENGTH * uniform(cells), HEIGHT * uniform(1), uniform(1)
+        grid = swept_blocks(lines, np.ones((cells, 1, 1), int), {1: "body"}, mapping, faces)
         self.body = body = Elastomer(MPI.COMM_SELF, grid, Yeoh((0.117,), bulk=20.0),
                                      ELEMENTS[element], clamped=("left", "right"))
         self.system = EquilibriumSystem(body.comm, [body.block])

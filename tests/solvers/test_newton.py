@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from petsc4py import PETSc
 
 from tests.solvers.strip import Strip
 
@@ -60,6 +61,32 @@ def test_cells_turned_inside_out_stop_newton_with_a_reason():
     result = Strip(0.0, regularised=False).push(3.0)
     assert not result.converged
     assert result.reason == "an element turned inside out (J <= 0)"
+
+
+@pytest.fixture
+def mumps():
+    """Return the PETSc options of the strip's factorisation; what is set is taken back."""
+    options = PETSc.Options("test_strip_factor_")
+    yield options
+    for name in ("mat_mumps_icntl_14", "mat_mumps_icntl_23"):
+        options.delValue(name)
+
+
+@pytest.mark.quick
+def test_options_of_mumps_are_open_under_the_solvers_prefix(mumps):
+    mumps.setValue("mat_mumps_icntl_14", 77)
+    strip = Strip(0.0, regularised=False)
+    strip.push(0.01)
+    factor = strip.newton.factor._inner.getFactorMatrix()
+    assert (factor.getMumpsIcntl(14), factor.getMumpsIcntl(13)) == (77, 1)
+
+
+@pytest.mark.quick
+def test_a_factorisation_without_memory_is_not_taken_for_a_cell_inside_out(mumps):
+    mumps.setValue("mat_mumps_icntl_23", 1)  # MB
+    result = Strip(0.0, False, cells=40).push(0.01)
+    assert not result.converged
+    assert result.reason.startswith("the tangent could not be factorised (MUMPS error -")
 
 
 def test_all_solves_share_one_matrix():
