@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from morphing_wing.errors import InputError, require
+from morphing_wing.errors import InputError, is_count, is_number, require
 
 from .aerofoil import Aerofoil
 from .rib import RibGeometry
@@ -83,12 +83,11 @@ class WingGeometry:
             value = getattr(self, name)
             if value is None and name.startswith("foot_"):
                 continue
-            require(_is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
-        ok = _is_number(self.n_cells) and self.n_cells == int(self.n_cells) and self.n_cells >= 1
-        require(ok, "n_cells", self.n_cells, "", "a whole number of at least 1")
-        ok = _is_number(self.spar_fraction) and 0.1 <= self.spar_fraction <= 0.9
+            require(is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
+        require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
+        ok = is_number(self.spar_fraction) and 0.1 <= self.spar_fraction <= 0.9
         require(ok, "spar_fraction", self.spar_fraction, "", "between 0.1 and 0.9")
-        ok = _is_number(self.glue_stiffness) and self.glue_stiffness > 0
+        ok = is_number(self.glue_stiffness) and self.glue_stiffness > 0
         require(ok, "glue_stiffness", self.glue_stiffness, "N/mm^3", "greater than 0 N/mm^3")
         self._check_chambers()
         if self.skin_thickness is not None:
@@ -157,7 +156,7 @@ class WingGeometry:
 
     def _check_skin(self) -> None:
         value = self.skin_thickness
-        ok = _is_number(value) and 0 < value < self.top_thickness
+        ok = is_number(value) and 0 < value < self.top_thickness
         require(ok, "skin_thickness", value, "mm",
                 f"greater than 0 mm and less than top_thickness = {self.top_thickness:g} mm")
         edge, front = (float(self.section.half_thickness(x)) for x in (self.chord, self.spar_end))
@@ -168,7 +167,7 @@ class WingGeometry:
 
     def _check_ribs(self, rib: RibGeometry) -> None:
         places = self.rib_positions if isinstance(self.rib_positions, (tuple, list)) else ()
-        ok = all(_is_number(p) and 0 < p < 1 for p in places) and places
+        ok = all(is_number(p) and 0 < p < 1 for p in places) and places
         require(bool(ok), "rib_positions", self.rib_positions, "",
                 "one or more parts of the span between 0 and 1")
         height, _ = self.foot()
@@ -184,11 +183,7 @@ class WingGeometry:
         bond = self.chord - self.spar_end - rib.length
         require(self.tail_bond_length <= bond, "tail_bond_length", self.tail_bond_length, "mm",
                 f"at most {bond:.4g} mm, from the rib's end to the trailing edge")
-        ok = len(guide) == 3 and all(_is_number(c) for c in guide)
+        ok = len(guide) == 3 and all(is_number(c) for c in guide)
         require(bool(ok) and any(guide), "cable_guide", self.cable_guide, "mm",
                 "three lengths, not all zero")
 
-
-def _is_number(value: object) -> bool:
-    number = isinstance(value, (int, float, np.integer, np.floating))
-    return number and not isinstance(value, bool) and bool(np.isfinite(value))

@@ -50,7 +50,7 @@ class WingMeshing:
 
     @classmethod
     def coarse(cls) -> WingMeshing:
-        """Return one interval a wall and a chamber, for quadratic elements (82,000 dofs)."""
+        """Return one interval a wall and a chamber, for quadratic elements."""
         return cls.of(cavity_width=6, pocket=9)
 
     @classmethod
