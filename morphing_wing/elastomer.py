@@ -12,6 +12,7 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from . import compat
+from .blocks import Block
 from .elements import Element
 from .forms.hyperelasticity import mixed_volumetric_energy, volumetric_energy, yeoh_energy
 from .forms.kinematics import cofactor, deformation_gradient
@@ -20,7 +21,6 @@ from .forms.pressure import enclosed_volume
 from .geometry.hexmesh import HexMesh
 from .iterate import Iterate
 from .materials import Yeoh
-from .system import Block
 
 
 class Elastomer:

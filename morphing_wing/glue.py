@@ -10,6 +10,7 @@ from dolfinx import fem
 from numpy.polynomial import Legendre, Polynomial
 
 from . import compat
+from .blocks import Block, SharedUnknowns
 from .elastomer import Elastomer
 from .errors import require
 from .forms.adhesive import adhesive_energy, foot_displacement
@@ -19,7 +20,6 @@ from .frame import BeamFrame
 from .geometry.hexmesh import HexMesh
 from .geometry.wing import WingGeometry
 from .iterate import Iterate
-from .system import Block, SharedUnknowns
 
 # Patches need not end on mesh lines: on a facet, a patch is the polynomial of this degree in each
 # direction with which the integrals of all polynomials up to that degree are those over the patch

@@ -14,6 +14,7 @@ from mpi4py import MPI
 
 from . import compat
 from .angles import deflection_line, rotation_about_z
+from .blocks import Block
 from .drawing import Drawing, bar_radii, default_drawing
 from .errors import require
 from .forms.beam import displacement
@@ -26,7 +27,7 @@ from .newton import Newton
 from .path import Path, State
 from .scene import Scene, choose_fidelity
 from .stepping import Stepping
-from .system import Block, EquilibriumSystem
+from .system import EquilibriumSystem
 from .tension import check_tension
 
 FIDELITIES = ("draft",)

@@ -13,6 +13,7 @@ from mpi4py import MPI
 
 from . import compat
 from .angles import deflection_line, rotation_about_x, rotation_about_z
+from .blocks import Block
 from .chambers import Chambers
 from .drawing import Cut, Drawing, bar_radii, default_drawing
 from .elastomer import Elastomer
@@ -32,7 +33,7 @@ from .path import Path, State
 from .pocket import Pocket
 from .scene import Scene, choose_fidelity
 from .stepping import Stepping
-from .system import Block, EquilibriumSystem
+from .system import EquilibriumSystem
 from .tension import check_tension
 
 

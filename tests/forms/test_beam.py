@@ -8,6 +8,7 @@ from mpi4py import MPI
 from scipy.spatial.transform import Rotation
 
 from morphing_wing import compat
+from morphing_wing.blocks import Block
 from morphing_wing.forms.beam import rotation, tangent_map
 from morphing_wing.forms.cable import cable_potential
 from morphing_wing.frame import BeamFrame, turned_x
@@ -16,7 +17,7 @@ from morphing_wing.geometry.rib import KINDS, RibGeometry
 from morphing_wing.geometry.section import Rectangle
 from morphing_wing.materials import RESIN, Elastic
 from morphing_wing.newton import Newton
-from morphing_wing.system import Block, EquilibriumSystem
+from morphing_wing.system import EquilibriumSystem
 
 pytestmark = pytest.mark.quick
 
