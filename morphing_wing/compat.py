@@ -89,6 +89,16 @@ def facet_tags(mesh: Any, facets: np.ndarray, values: np.ndarray) -> Any:
     return dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, facets, values)
 
 
+def cell_tags(mesh: Any, cells: np.ndarray) -> Any:
+    """Return mesh tags that are 1 on some local cells (sorted) and 0 on the others."""
+    topology = mesh.topology
+    index_map = topology.index_map(topology.dim)
+    values = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
+    values[cells] = 1
+    everywhere = np.arange(len(values), dtype=np.int32)
+    return dolfinx.mesh.meshtags(mesh, topology.dim, everywhere, values)
+
+
 def cell_facets(mesh: Any) -> np.ndarray:
     """Return the local facets of each local cell, shape (n_cells, facets per cell)."""
     tdim = mesh.topology.dim
@@ -126,20 +136,55 @@ def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int
     ``pressure`` is ``("DPC", 1)`` (P1 in each cell), ``("DG", 0)`` or ``("Lagrange", 1)``.
     """
     if _HAS_BASIX_UFL:
-        cell = mesh.basix_cell()
-        u = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
         options = _pressure_options(pressure)
-        p = basix.ufl.element(pressure[0], cell, pressure[1], **options)
-        return fem.functionspace(mesh, basix.ufl.mixed_element([u, p]))
+        p = basix.ufl.element(pressure[0], mesh.basix_cell(), pressure[1], **options)
+    else:
+        p = ufl.FiniteElement(pressure[0], mesh.ufl_cell(), pressure[1])
+    return _with_displacement(mesh, degree, p)
+
+
+def displacement_modes_space(mesh: Any, degree: int, n_modes: int) -> Any:
+    """Return the mixed space of a continuous displacement and ``n_modes`` numbers a cell."""
+    if _HAS_BASIX_UFL:
+        modes = basix.ufl.element("DG", mesh.basix_cell(), 0, shape=(n_modes,))
+    else:
+        modes = ufl.VectorElement("DG", mesh.ufl_cell(), 0, dim=n_modes)
+    return _with_displacement(mesh, degree, modes)
+
+
+def _with_displacement(mesh: Any, degree: int, other: Any) -> Any:
+    if _HAS_BASIX_UFL:
+        u = basix.ufl.element("Lagrange", mesh.basix_cell(), degree, shape=(3,))
+        return fem.functionspace(mesh, basix.ufl.mixed_element([u, other]))
     u = ufl.VectorElement("Lagrange", mesh.ufl_cell(), degree)
-    p = ufl.FiniteElement(pressure[0], mesh.ufl_cell(), pressure[1])
-    return fem.FunctionSpace(mesh, ufl.MixedElement([u, p]))
+    return fem.FunctionSpace(mesh, ufl.MixedElement([u, other]))
 
 
 def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
     if pressure[0] == "DPC":
         return {"dpc_variant": basix.DPCVariant.legendre, "discontinuous": True}
     return {}
+
+
+def cell_natural_coordinates(mesh: Any) -> tuple[Any, Any]:
+    """Return natural coordinates in [-1, 1] of hexahedra and the Jacobian at their middle.
+
+    Returns
+    -------
+    natural : Function
+        Discontinuous and trilinear, 3 components.
+    jacobian : Function
+        dx/dX at the middle of each cell, X in [0, 1], constant in each cell, 3 x 3.
+    """
+    natural = fem.Function(discontinuous_space(mesh, 1, (3,)))
+    element = natural.function_space.element
+    corners = element.interpolation_points
+    corners = corners() if callable(corners) else corners
+    natural.x.array[:] = np.tile((2.0 * corners - 1.0).ravel(), len(natural.x.array) // 24)
+    jacobian = fem.Function(discontinuous_space(mesh, 0, (3, 3)))
+    middle = np.full((1, 3), 0.5)
+    jacobian.interpolate(fem.Expression(ufl.Jacobian(mesh), middle))
+    return natural, jacobian
 
 
 # -- forms and assembly -----------------------------------------------------------------------

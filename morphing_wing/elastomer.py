@@ -14,6 +14,7 @@ from mpi4py import MPI
 from . import compat
 from .blocks import Block
 from .elements import Element
+from .forms.enhanced import N_MODES, enhanced_deformation_gradient
 from .forms.hyperelasticity import mixed_volumetric_energy, volumetric_energy, yeoh_energy
 from .forms.kinematics import cofactor, deformation_gradient
 from .forms.mixed_point import mixed_point_correction
@@ -40,6 +41,8 @@ class Elastomer:
         Faces whose points do not move.
     symmetry
         Faces that stay in their plane: mapping of name to axis (0, 1, 2).
+    thin
+        Regions that bend like plates: where an enhanced element has strains of its own.
     """
 
     def __init__(
@@ -50,61 +53,77 @@ class Elastomer:
         element: Element,
         clamped: Sequence[str] = (),
         symmetry: dict[str, int] | None = None,
+        thin: Sequence[str] = (),
     ) -> None:
         self.comm, self.grid, self.material, self.element = comm, grid, material, element
         self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
         self._tag_faces()
-        if element.pressure is None:
-            space = compat.vector_space(self.mesh, element.degree)
-        else:
+        self._thin = self._cells_of(thin) if element.enhanced else np.empty(0, dtype=np.int32)
+        self.is_enhanced = self.comm.allreduce(len(self._thin)) > 0
+        if element.pressure is not None:
             space = compat.displacement_pressure_space(
                 self.mesh, element.degree, element.pressure
             )
+        elif self.is_enhanced:
+            space = compat.displacement_modes_space(self.mesh, element.degree, N_MODES)
+            self._natural, self._jacobian = compat.cell_natural_coordinates(self.mesh)
+            self._cell_tags = compat.cell_tags(self.mesh, self._thin)
+        else:
+            space = compat.vector_space(self.mesh, element.degree)
         self.function = fem.Function(space, name="elastomer")
         constrained = self._constrained(space, clamped, symmetry or {})
-        self.block = Block(self.function, constrained)
-        if element.pressure is None:
-            self.u, self.p = self.function, None
-            self.iterate: Iterate | None = Iterate(self.function)
-        else:
-            self.u, self.p = ufl.split(self.function)
-            self.iterate = None
+        self.block = Block(self.function, constrained, self._absent_modes())
+        parts = ufl.split(self.function) if self.is_mixed else (self.function,)
+        self.u = parts[0]
+        self.p = parts[1] if element.pressure is not None else None
+        self.iterate = Iterate(self.function) if self.p is None else None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
         self._compiled_probes: dict[str, list[Any]] = {}
+
+    @property
+    def is_mixed(self) -> bool:
+        """Whether the function holds more than the displacement, which then is its first part."""
+        return self.element.pressure is not None or self.is_enhanced
 
     # -- energies -----------------------------------------------------------------------------
 
     @cached_property
     def energy(self) -> Any:
         """Stored energy in N mm, a UFL functional."""
-        F = deformation_gradient(self.u)
-        dx = self.volume_measure(self.element.quadrature)
-        dx_volumetric = self.volume_measure(self.element.volumetric_quadrature)
-        isochoric = yeoh_energy(F, self.material.coefficients) * dx
+        total: Any = 0
+        for F, dx, dx_volumetric in self._parts(self.function):
+            total = total + yeoh_energy(F, self.material.coefficients) * dx
+            total = total + self._volumetric_density(F) * dx_volumetric
+        return total
+
+    def _volumetric_density(self, F: Any) -> Any:
         bulk = self.material.bulk
         if self.p is None:
-            return isochoric + volumetric_energy(F, self._constant(bulk)) * dx_volumetric
+            return volumetric_energy(F, self._constant(bulk))
         inverse_bulk = self._constant(0.0 if np.isinf(bulk) else 1.0 / bulk)
-        return isochoric + mixed_volumetric_energy(F, self.p, inverse_bulk) * dx_volumetric
+        return mixed_volumetric_energy(F, self.p, inverse_bulk)
 
     @cached_property
     def tangent_correction(self) -> Any | None:
         """Bilinear form that makes a displacement form's tangent robust; None for mixed forms."""
         if self.iterate is None:
             return None
+        total: Any = 0
+        for part, (_, _, dx_volumetric) in enumerate(self._parts(self.function)):
 
-        def dilatation(u: Any) -> list[Any]:
-            return [ufl.det(deformation_gradient(u)) - 1.0]
+            def dilatation(w: Any, part: int = part) -> list[Any]:
+                return [ufl.det(self._parts(w)[part][0]) - 1.0]
 
-        correction = mixed_point_correction(
-            dilatation,
-            [self._constant(self.material.bulk)],
-            self.u,
-            self.iterate.last,
-            self.iterate.step,
-        )
-        return correction * self.volume_measure(self.element.volumetric_quadrature)
+            correction = mixed_point_correction(
+                dilatation,
+                [self._constant(self.material.bulk)],
+                self.function,
+                self.iterate.last,
+                self.iterate.step,
+            )
+            total = total + correction * dx_volumetric
+        return total
 
     def chamber_volume(self, face: str) -> Any:
         """Return the deformed volume in mm^3 enclosed by a chamber's faces, a UFL functional."""
@@ -115,7 +134,9 @@ class Elastomer:
     def volume_measure(self, degree: int | None = None) -> Any:
         """Return dx with a quadrature degree."""
         degree = degree or self.element.quadrature
-        return ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": degree})
+        tags = self._cell_tags if self.is_enhanced else None
+        return ufl.Measure("dx", self.mesh, subdomain_data=tags,
+                           metadata={"quadrature_degree": degree})
 
     def on_face(self, face: str, integrand: Any, degree: int | None = None) -> Any:
         """Return the integral of an integrand over a named face, a UFL functional."""
@@ -134,7 +155,7 @@ class Elastomer:
 
     def displacement(self) -> fem.Function:
         """Return the displacement as a function of its own, for pictures and files."""
-        if self.p is None:
+        if not self.is_mixed:
             return self.function
         drawn, dofs = self._drawn
         drawn.x.array[:] = self.function.x.array[dofs]
@@ -148,6 +169,26 @@ class Elastomer:
         return dofmap.index_map.size_global * dofmap.index_map_bs
 
     # -- internals ----------------------------------------------------------------------------
+
+    def _parts(self, w: Any) -> list[tuple[Any, Any, Any]]:
+        """Return deformation gradient, isochoric and volumetric measure of each kind of cells.
+
+        ``w`` is ``function`` or another one of its space.
+        """
+        element = self.element
+        degrees = element.quadrature, element.volumetric_quadrature
+        if not self.is_enhanced:
+            u = ufl.split(w)[0] if self.is_mixed else w
+            return [(deformation_gradient(u), *map(self.volume_measure, degrees))]
+        u, modes = ufl.split(w)
+        F = deformation_gradient(u)
+        enhanced = enhanced_deformation_gradient(
+            F, modes, self._natural, self._jacobian, ufl.JacobianDeterminant(self.mesh)
+        )
+        # The modes need all points to be felt, and keep incompressibility from locking them.
+        bulky, thin = (tuple(self.volume_measure(degree)(kind) for degree in used)
+                       for kind, used in ((0, degrees), (1, 2 * (element.quadrature,))))
+        return [(F, *bulky), (enhanced, *thin)]
 
     def _constant(self, value: float) -> fem.Constant:
         return fem.Constant(self.mesh, compat.scalar_type(value))
@@ -202,10 +243,12 @@ class Elastomer:
         return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells))
 
     def region_mass(self, region: str) -> np.ndarray:
-        """Return the lumped volume in mm^3 of a region on each owned dof of a displacement form."""
-        cells = np.isin(compat.original_cells(self.mesh), self.grid.regions[region])
+        """Return the lumped volume in mm^3 of a region on each owned unknown of a block.
+
+        Not for forms with a pressure; zero for unknowns that are no displacements.
+        """
         density = fem.Function(compat.discontinuous_space(self.mesh, 0))
-        for cell in np.flatnonzero(cells):
+        for cell in self._cells_of([region]):
             density.x.array[density.function_space.dofmap.cell_dofs(cell)] = 1.0
         space = self.function.function_space
         v = ufl.TestFunction(space)
@@ -215,12 +258,34 @@ class Elastomer:
             mass.x.array,
         )
         compat.add_ghosts(mass)
-        return mass.x.array[: self.block.n_owned].copy()
+        return mass.x.array[self.block.owned]
+
+    def is_displacement(self) -> np.ndarray:
+        """Return which of the block's owned unknowns are displacements, as a mask."""
+        found = np.ones(len(self.function.x.array), dtype=bool)
+        if self.is_mixed:
+            found[:] = False
+            found[self._drawn[1]] = True
+        return found[self.block.owned]
+
+    def _cells_of(self, regions: Sequence[str]) -> np.ndarray:
+        """Return the local cells of regions; those that the grid lacks have none."""
+        cells = [self.grid.regions[name] for name in regions if name in self.grid.regions]
+        here = np.isin(compat.original_cells(self.mesh), np.concatenate([[], *cells]))
+        return np.flatnonzero(here).astype(np.int32)
+
+    def _absent_modes(self) -> np.ndarray:
+        """Return the modes' dofs in cells that have no strains of their own."""
+        if not self.is_enhanced:
+            return np.empty(0, dtype=np.int32)
+        modes = self.function.function_space.sub(1).dofmap
+        cells = np.setdiff1d(np.arange(len(compat.original_cells(self.mesh))), self._thin)
+        return np.concatenate([np.empty(0, np.int32), *(modes.cell_dofs(c) for c in cells)])
 
     def _constrained(
         self, space: Any, clamped: Sequence[str], symmetry: dict[str, int]
     ) -> np.ndarray:
-        displacement = space if self.element.pressure is None else space.sub(0)
+        displacement = space.sub(0) if self.is_mixed else space
         found = []
         pairs = [(face, axis) for face in clamped for axis in range(3)] + list(symmetry.items())
         for face, axis in pairs:

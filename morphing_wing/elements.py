@@ -9,7 +9,7 @@ from .errors import InputError
 
 @dataclass(frozen=True)
 class Element:
-    """A displacement element with or without a pressure.
+    """A displacement element with or without a pressure or strains of its own.
 
     Attributes
     ----------
@@ -22,6 +22,9 @@ class Element:
     quadrature, volumetric_quadrature
         Polynomial degrees that the Gauss rules of the isochoric and the volumetric part integrate.
         Never left to an estimate: for ``J^(-2/3)`` that is 39.
+    enhanced
+        Whether cells of thin regions have strains of their own, see
+        `morphing_wing.forms.enhanced`; their volumetric part has the isochoric one's quadrature.
     """
 
     name: str
@@ -29,6 +32,7 @@ class Element:
     pressure: tuple[str, int] | None
     quadrature: int
     volumetric_quadrature: int
+    enhanced: bool = False
 
 
 _ELEMENTS = (
@@ -37,6 +41,7 @@ _ELEMENTS = (
     Element("Q1/P0", 1, ("DG", 0), 3, 3),
     Element("Q2 reduced", 2, None, 5, 3),
     Element("Q1 reduced", 1, None, 3, 1),
+    Element("Q1 enhanced", 1, None, 3, 1, enhanced=True),
 )
 ELEMENTS = {element.name: element for element in _ELEMENTS}
 

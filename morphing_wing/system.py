@@ -105,7 +105,7 @@ class EquilibriumSystem:
         start = 0
         array = x.getArray()
         for block in self.blocks[: self._n_independent]:
-            array[start : start + block.n_owned] = block.function.x.array[: block.n_owned]
+            array[start : start + block.n_owned] = block.function.x.array[block.owned]
             start += block.n_owned
 
     def gather(self, local: Sequence[np.ndarray | None], out: PETSc.Vec) -> None:
@@ -161,7 +161,8 @@ class EquilibriumSystem:
         for block in independent:
             # Ghosts learn their numbers from their owners by a scatter of the function itself.
             values = block.function.x.array.copy()
-            block.function.x.array[: block.n_owned] = start + np.arange(block.n_owned)
+            block.function.x.array[:] = -1.0
+            block.function.x.array[block.owned] = start + np.arange(block.n_owned)
             block.function.x.scatter_forward()
             block.numbers = np.rint(block.function.x.array).astype(np.int64)
             block.function.x.array[:] = values
@@ -255,18 +256,19 @@ class EquilibriumSystem:
         indptr, indices, _ = pattern.getValuesCSR()
         row = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
         pattern.destroy()
-        return self._to_system(i, row, owned=True), self._to_system(j, indices, owned=False)
+        row, column = self._of_rows(i)[row], self._of_columns(j)[indices]
+        present = (row >= 0) & (column >= 0)
+        return row[present], column[present]
 
-    def _to_system(self, b: int, numbers: np.ndarray, owned: bool) -> np.ndarray:
-        """Turn a block's own numbers (of owned rows, or global columns) into the system's."""
+    def _of_rows(self, b: int) -> np.ndarray:
+        """Return the system's number of each dof of a block that this rank owns."""
         block = self.blocks[b]
-        first = int(block.numbers[0]) if block.n_owned else 0
-        if owned:
-            return first + numbers.astype(np.int64)
-        starts = np.array(self.comm.allgather((block.n_owned, first)), dtype=np.int64)
-        block_first = np.concatenate([[0], np.cumsum(starts[:, 0])])
-        rank = np.searchsorted(block_first, numbers, side="right") - 1
-        return numbers - block_first[rank] + starts[rank, 1]
+        n = block.function.function_space.dofmap.index_map.size_local * block.block_size
+        return block.numbers[:n]
+
+    def _of_columns(self, b: int) -> np.ndarray:
+        """Return the system's number of each dof of a block, in its own global numbering."""
+        return np.concatenate(self.comm.allgather(self._of_rows(b)))
 
     def _shared_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
         left, right = self.blocks[i], self.blocks[j]

@@ -99,7 +99,8 @@ class Wing(Scene):
         if geometry.rib is not None:
             grid = with_glued_faces(grid, geometry)
         self.body = Elastomer(
-            self.comm, grid, elastomer, element_named(element or rung.element), clamped=("root",)
+            self.comm, grid, elastomer, element_named(element or rung.element),
+            clamped=("root",), thin=("skin",),
         )
         blocks, sharing = [self.body.block], []
         if geometry.rib is not None:
@@ -208,7 +209,7 @@ class Wing(Scene):
         mass = np.zeros(self.system.n_owned)
         mass[:n] = self.body.region_mass("skin")
         displacements = np.zeros(self.system.n_owned, dtype=bool)
-        displacements[:n] = True
+        displacements[:n] = self.body.is_displacement()
         return Regularisation(mass, displacements)
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:

@@ -46,4 +46,4 @@ class Equilibrium:
 
     def displacement_function(self):
         """Displacement part of the unknown, to be interpolated into."""
-        return self.body.function if self.body.p is None else self.body.function.sub(0)
+        return self.body.function.sub(0) if self.body.is_mixed else self.body.function

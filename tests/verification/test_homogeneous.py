@@ -118,13 +118,13 @@ def computed_stress(mode, material, element, lam, grid):
         # Held faces move as wanted, all else to a first guess that is not in equilibrium.
         now = np.array(stretches(step, guess(step)))
         factors = now - before
-        part = growth if body.p is None else growth.sub(0)
+        part = growth.sub(0) if body.is_mixed else growth
         part.interpolate(lambda x, factors=factors: factors[:, None] * (x + 0.1 * wave(x)))
         body.function.x.array[:] += growth.x.array
         problem.solve()
         before = now
     v = fem.Function(body.function.function_space)
-    (v if body.p is None else v.sub(0)).interpolate(
+    (v.sub(0) if body.is_mixed else v).interpolate(
         lambda x: np.stack([0 * x[0], 0 * x[0], x[2]]))
     work = compat.form(ufl.derivative(body.energy, body.function, v))
     return compat.assemble_scalar(body.comm, work)
