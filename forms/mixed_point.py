@@ -7,7 +7,7 @@ geometric term with it. Here S is what Newton's method would give if it were an 
     S_lin = C (s(w_last) + s'(w_last)[step]),  step = w - w_last.
 
 The residual is unchanged, and so is the tangent at convergence. With ``step = 0`` the stress of
-``w_last`` is kept: for the first tangent after a predictor.
+``w_last`` is kept: for the first tangent of a load step.
 
 References
 ----------

@@ -33,7 +33,7 @@ class Regularisation:
 
     mass: np.ndarray
     displacements: np.ndarray
-    longest_step: float = 2.0
+    longest_step: float = 20.0
 
 
 class InertiaCholesky:
@@ -58,10 +58,13 @@ class InertiaCholesky:
         Number of factors so far.
     stale
         Whether the tangent is newer than the factor.
+    incurable
+        Whether more mass, raised ``most_in_vain`` times in a row by ``raises``, took away none of
+        the surplus negative pivots of the last tangent: the thin part is not what they are of.
     """
 
     raises = 100.0
-    largest_exponent = 5
+    most_in_vain = 2
 
     def __init__(
         self, regularisation: Regularisation | None, expected_negative: int, prefix: str
@@ -73,6 +76,7 @@ class InertiaCholesky:
         self.error = 0
         self.factorisations = 0
         self.stale = True
+        self.incurable = False
         self._prefix = prefix
         self._inner: PETSc.PC | None = None
         self._unit_value: float | None = None
@@ -91,10 +95,13 @@ class InertiaCholesky:
         self._factorise()
         if self.regularisation is None:
             return
-        unit = self._unit()
-        while self.surplus > 0 and self.amount < unit * self.raises**self.largest_exponent:
+        unit, in_vain = self._unit(), 0
+        while self.surplus > 0 and in_vain < self.most_in_vain:
+            before = self.surplus
             self.amount = max(self.amount * self.raises, unit)
             self._factorise()
+            in_vain = in_vain + 1 if self.surplus >= before else 0
+        self.incurable = self.surplus > 0
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
         """Solve, and shorten a step that is too long."""
@@ -120,13 +127,15 @@ class InertiaCholesky:
 
     def memory(self) -> dict[str, float]:
         """Return what the next solve inherits from those before; the same on all ranks."""
-        found = {"mass_amount": self.amount}
-        return found | ({} if self._unit_value is None else {"mass_unit": self._unit_value})
+        return {} if self._unit_value is None else {"mass_unit": self._unit_value}
 
     def recall(self, memory: Mapping[str, float]) -> None:
         """Take over what `memory` returned, also in an earlier run."""
-        self.amount = memory["mass_amount"]
         self._unit_value = memory.get("mass_unit", self._unit_value)
+
+    def begin(self) -> None:
+        """Forget the mass that the solve before, perhaps one that failed, has left."""
+        self.amount, self.incurable = 0.0, False
 
     # -- the rule -----------------------------------------------------------------------------
 

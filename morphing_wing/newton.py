@@ -130,6 +130,7 @@ class Newton:
         bury(self.system.comm)
         self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
         self._smallest = np.inf
+        self.factor.begin()
         self.system.push(self._x)
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
@@ -152,6 +153,8 @@ class Newton:
             return "converged"
         if self.factor.error < 0:  # else it would pass for the NaN that PETSc makes of it
             return f"the tangent could not be factorised (MUMPS error {self.factor.error})"
+        if self.factor.incurable:
+            return "the way to the next equilibrium is unstable, and not by the skin alone"
         return REASONS.get(reason, f"SNES reason {reason}")
 
     # -- called by PETSc ----------------------------------------------------------------------
@@ -176,10 +179,13 @@ class Newton:
             return _NOT_A_NUMBER
         if residual <= self._tolerance:
             return reason.CONVERGED_FNORM_ABS
+        if self.factor.incurable:
+            return reason.DIVERGED_LINEAR_SOLVE
         if iteration > 0:
             unregularised = self.factor.amount == 0.0
             # Roundoff of stiff parts bounds the residual from below; then the step is what counts.
-            if unregularised and step <= 1e-11 * (x_norm + 1.0):
+            # Convergence is quadratic there: what is left is far below the step that was made.
+            if unregularised and step <= 1e-8 * (x_norm + 1.0):
                 return reason.CONVERGED_SNORM_RELATIVE
             self.factor.relax(1e3 if residual < 0.1 * self._smallest else 10.0)
         self._smallest = min(self._smallest, residual)

@@ -20,7 +20,7 @@ from . import compat
 from .errors import InputError
 from .path import State
 from .root import on_root, write_whole
-from .stepping import Load, Secant, Standing
+from .stepping import Load, Standing
 from .summary import plain
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Restart", "read", "restart_file", "write"]
 
-_FORMAT = 1
+_FORMAT = 2
 _ROW = [f.name for f in dataclasses.fields(State) if f.name not in ("fields", "scene")]
 
 
@@ -91,22 +91,16 @@ def write(
     states, standing, seconds
         See `Restart`.
     """
-    secant = standing.secant
     head = {
         "format": _FORMAT,
         "fingerprint": _fingerprint(scene),
         "states": [{name: getattr(state, name) for name in _ROW} for state in states],
         "memory": scene.memory(),
-        "standing": {f.name: getattr(standing, f.name)
-                     for f in dataclasses.fields(Standing) if f.name != "secant"},
-        "secant_step": secant.step,
+        "standing": dataclasses.asdict(standing),
         "seconds": seconds,
     }
     functions = [block.function for block in scene.system.blocks]
-    arrays = {_name("x", f): _gathered(f, f.x.array) for f in functions}
-    if secant.slope is not None:
-        arrays |= {_name("slope", f): _gathered(f, slope)
-                   for f, slope in zip(functions, secant.slope, strict=True)}
+    arrays = {f.name: _gathered(f, f.x.array) for f in functions}
 
     def save(file: pathlib.Path) -> None:
         np.savez(file, head=np.array(json.dumps(head, default=plain)), **arrays)
@@ -128,13 +122,9 @@ def read(place: str | os.PathLike, scene: Scene) -> Restart:
     if differs:
         raise InputError(f"{file}: must be of the scene to resume, but {differs}")
     functions = [block.function for block in scene.system.blocks]
-    values = [_scattered(f, arrays[_name("x", f)]) for f in functions]
-    load, step, slope = head["standing"]["load"], head["secant_step"], None
-    if step is not None:
-        slope = [_scattered(f, arrays[_name("slope", f)]) for f in functions]
-    standing = Standing(**head["standing"], secant=Secant(load, values, step, slope))
+    standing = Standing(**head["standing"])
     states = [State(**row) for row in head["states"]]
-    states[-1].fields = {f.name: x.copy() for f, x in zip(functions, values, strict=True)}
+    states[-1].fields = {f.name: _scattered(f, arrays[f.name]) for f in functions}
     return Restart(states, standing, head["memory"], head["seconds"])
 
 
@@ -152,10 +142,6 @@ def _content(file: pathlib.Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     if not readable:
         raise InputError(f"{file}: must be a restart file of this version")
     return head, arrays
-
-
-def _name(kind: str, function: Any) -> str:
-    return f"{kind}_{function.name}"
 
 
 # -- whose file it is -------------------------------------------------------------------------

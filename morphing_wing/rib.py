@@ -57,7 +57,7 @@ class Rib(Scene):
 
     name = "rib"
     load_names = ("torque_Nmm", "cable_N")
-    stepping = Stepping(easy=10, predict=True)
+    stepping = Stepping(easy=10)
 
     def __init__(
         self,

@@ -27,14 +27,11 @@ class Stepping:
         Up to this number of Newton iterations the next step is twice as long.
     largest
         Largest change of each named load in one step; loads without an entry are free.
-    predict
-        Start each step on the secant through the last two states.
     """
 
     smallest: float = 1.0 / 512
     easy: int = 8
     largest: Mapping[str, float] | None = None
-    predict: bool = False
 
 
 class Steppable(Protocol):
@@ -73,8 +70,6 @@ class Standing:
         The loads between which it is under way.
     done, step
         Part of this way that is done, and the next step.
-    secant
-        What the predictor knows.
     """
 
     load: Load
@@ -83,7 +78,6 @@ class Standing:
     target: Load
     done: float
     step: float
-    secant: Secant
 
 
 def follow(
@@ -121,7 +115,6 @@ def follow(
     """
     states: list[State] = []
     here = dict(start)
-    secant = Secant(here, scene.unknowns()) if standing is None else standing.secant
     for number, target in enumerate(targets):
         if standing is not None and number < standing.reached:
             continue
@@ -138,8 +131,6 @@ def follow(
             }
             clock = time.perf_counter()
             last = scene.unknowns()
-            if stepping.predict:
-                scene.set_unknowns(secant.predict(load))
             scene.set_load(load)
             result = scene.solve()
             if not result.converged:
@@ -154,7 +145,6 @@ def follow(
             scene.accept()
             done += step
             here = load
-            secant.add(here, scene.unknowns())
             requested = done > 1.0 - 1e-9
             done = 1.0 if requested else done
             state = scene.state(load, result, time.perf_counter() - clock, requested)
@@ -162,56 +152,10 @@ def follow(
             if result.iterations <= stepping.easy:
                 step = min(2 * step, limit)
             if keep is not None:
-                keep(Standing(here, number + requested, begin, target, done, step, secant), states)
+                keep(Standing(here, number + requested, begin, target, done, step), states)
             if on_step is not None:
                 on_step(state)
     return states, True, "the last load was reached"
-
-
-class Secant:
-    """Extrapolation through the last two states, where the load goes on in the same direction.
-
-    Attributes
-    ----------
-    step
-        Change of the loads between those states, sorted by name; None before there are two.
-    slope
-        Change of the rank-local values of all functions.
-    """
-
-    def __init__(
-        self,
-        load: Load,
-        values: list[np.ndarray],
-        step: Sequence[float] | None = None,
-        slope: list[np.ndarray] | None = None,
-    ) -> None:
-        self._load, self._values = dict(load), values
-        self.step = None if step is None else list(step)
-        self.slope = slope
-
-    def add(self, load: Load, values: list[np.ndarray]) -> None:
-        """Take a new state."""
-        step = _difference(load, self._load)
-        if np.linalg.norm(step) > 0.0:
-            self.step = step.tolist()
-            self.slope = [new - old for new, old in zip(values, self._values, strict=True)]
-        self._load, self._values = dict(load), values
-
-    def predict(self, load: Load) -> list[np.ndarray]:
-        """Return the values expected at a load; the last ones where nothing is known."""
-        if self.slope is None or self.step is None:
-            return self._values
-        step, known = _difference(load, self._load), np.array(self.step)
-        ratio = step @ known / (known @ known)
-        aside = np.linalg.norm(step - ratio * known)
-        if ratio < 0.0 or aside > 1e-6 * np.linalg.norm(step):
-            return self._values
-        return [v + ratio * s for v, s in zip(self._values, self.slope, strict=True)]
-
-
-def _difference(a: Load, b: Load) -> np.ndarray:
-    return np.array([a[name] - b[name] for name in sorted(a)])
 
 
 def _longest(way: Load, stepping: Stepping) -> float:

@@ -32,7 +32,6 @@ from .newton import Newton
 from .path import Path, State
 from .pocket import Pocket
 from .scene import Scene, choose_fidelity
-from .stepping import Stepping
 from .system import EquilibriumSystem
 from .tension import check_tension
 
@@ -46,7 +45,7 @@ class WingFidelity:
 
 
 FIDELITIES = {
-    "draft": WingFidelity(WingMeshing.fine(), "Q1 reduced"),
+    "draft": WingFidelity(WingMeshing.fine(), "Q1 enhanced"),
     "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
 }
 
@@ -61,7 +60,8 @@ class Wing(Scene):
     elastomer, resin
         Materials of spar and skin, and of the ribs.
     fidelity
-        "draft" (linear hexahedra, fine mesh) or "standard" (quadratic hexahedra); frame ribs.
+        "draft" (linear hexahedra, fine mesh, enhanced strains in the skin) or "standard"
+        (quadratic hexahedra); frame ribs.
     comm
         Communicator; all ranks of MPI by default.
     meshing, element
@@ -111,7 +111,6 @@ class Wing(Scene):
             sharing = [self.glue.shared(of=1)]
         self.system = EquilibriumSystem(self.comm, blocks, sharing)
         self.pocket = Pocket(self.body, self.ribs, geometry) if self.has_skin else None
-        self.stepping = Stepping(predict=True)
 
     @property
     def has_skin(self) -> bool:

@@ -95,7 +95,7 @@ def test_a_run_may_be_killed_after_every_step(whole, tmp_path):
 def test_killed_between_two_wanted_loads_it_takes_the_same_steps(tmp_path):
     def run(**options):
         scene = spar()
-        scene.stepping = Stepping(largest={"upper_MPa": 0.004}, predict=True)
+        scene.stepping = Stepping(largest={"upper_MPa": 0.004})
         return scene.inflate(upper=[0.01, 0.02], **options)
 
     whole = run()

@@ -8,6 +8,13 @@ GEOMETRY = WingGeometry.prototype(n_cells=2, rib_positions=(0.5,))
 MESHING = WingMeshing.of(cavity_width=3, pocket=5)
 
 
-def small_wing(comm, element="Q1 reduced", geometry=GEOMETRY):
+def small_wing(comm, element="Q1 enhanced", geometry=GEOMETRY):
     """Return the wing with all its parts on a communicator."""
     return Wing(geometry, meshing=MESHING, element=element, comm=comm)
+
+
+def move_elastomer(scene, motion):
+    """Give the elastomer the displacement ``motion`` of its points, both (n, 3) in mm."""
+    body = scene.body
+    part = body.function.sub(0) if body.is_mixed else body.function
+    part.interpolate(lambda x: motion(x.T).T)

@@ -8,12 +8,13 @@ from mpi4py import MPI
 
 from morphing_wing import compat
 from morphing_wing.errors import InputError
+from morphing_wing.forms.enhanced import N_MODES
 from morphing_wing.geometry.frame import local_axes
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.geometry.wing_mesh import WingMeshing, wing_mesh
 from morphing_wing.wing import Wing
-from tests.scenes.small_wing import GEOMETRY, MESHING, small_wing
+from tests.scenes.small_wing import GEOMETRY, MESHING, move_elastomer, small_wing
 
 NO_RIBS = {"rib": None}
 NO_SKIN = {"skin_thickness": None}
@@ -37,8 +38,12 @@ def angles(state):
 
 
 def elastomer_unknowns(geometry):
-    """Three displacements of each point of the linear mesh; clamped ones count, and stay zero."""
-    return 3 * len(wing_mesh(geometry, MESHING).points)
+    """Three displacements of each point of the linear mesh, and the strains of the skin's cells.
+
+    Clamped displacements count, and stay zero.
+    """
+    mesh = wing_mesh(geometry, MESHING)
+    return 3 * len(mesh.points) + N_MODES * len(mesh.regions["skin"])
 
 
 def rib_unknowns(geometry):
@@ -197,15 +202,11 @@ def rigid_motion(points, angle):
 @pytest.mark.parametrize("changes", [{}, NO_SKIN], ids=["foot and bond", "foot"])
 def test_a_foot_takes_over_a_rigid_motion_of_the_elastomer_without_energy(changes):
     scene = wing(**changes)
-    moved = {}
-    for name, function in (("body", scene.body.function), ("ribs", scene.ribs.function)):
-        points = function.function_space.tabulate_dof_coordinates()
-        u, theta = rigid_motion(points, 0.7)
-        rows = [u] if name == "body" else [u, np.broadcast_to(theta, u.shape)]
-        moved[name] = np.concatenate(rows, axis=1).ravel()
-    scene.body.function.x.array[:] = moved["body"]
+    move_elastomer(scene, lambda points: rigid_motion(points, 0.7)[0])
     apart, _ = glue_and_rib_energy(scene)
-    scene.ribs.function.x.array[:] = moved["ribs"]
+    ribs = scene.ribs.function
+    u, theta = rigid_motion(ribs.function_space.tabulate_dof_coordinates(), 0.7)
+    ribs.x.array[:] = np.concatenate([u, np.broadcast_to(theta, u.shape)], axis=1).ravel()
     together, bending = glue_and_rib_energy(scene)
     assert apart > 1.0
     assert abs(together) < 1e-12 * apart
@@ -252,15 +253,18 @@ def test_contact_is_marked_from_the_tension_on_at_which_the_skin_meets_a_rib():
 @pytest.mark.parametrize("part, contact", [(0.0, 0.0), (0.5, 0.0), (1.1, 1.0)])
 def test_upper_skin_pushed_through_is_contact(changes, part, contact):
     scene = wing(**changes)
-    points = scene.body.function.function_space.tabulate_dof_coordinates()
-    x, y, _ = points.T
     # Half-way along the pocket, by a part of the way down to the lower skin or the rib's top.
     x_dent = 0.5 * (scene.geometry.spar_end + scene.geometry.pocket_end)
     inner = float(scene.geometry.section.half_thickness(x_dent)) - 1.0
     rib = scene.geometry.rib
     way = 2.0 * inner if rib is None else inner - 0.5 * (rib.height + rib.shaft_width)
-    dent = np.where(y > 1e-6, -part * way * np.exp(-((x - x_dent) / 15.0) ** 2), 0.0)
-    scene.body.function.x.array.reshape(-1, 3)[:, 1] = np.where(x > 78.0, dent, 0.0)
+
+    def dent(points):
+        x, y, _ = points.T
+        down = np.where((x > 78.0) & (y > 1e-6), np.exp(-((x - x_dent) / 15.0) ** 2), 0.0)
+        return -part * way * np.outer(down, [0.0, 1.0, 0.0])
+
+    move_elastomer(scene, dent)
     assert scene._measures()["contact"] == contact
 
 

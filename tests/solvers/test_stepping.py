@@ -141,18 +141,6 @@ def test_callbacks_hear_of_every_step_and_every_cut():
     assert cuts[:2] == [(1.0, "an element broke"), (0.5, "an element broke")]
 
 
-def test_secant_predictor_starts_on_the_line_through_the_last_two_states():
-    scene = Fake()
-    led(scene, 1.0, 2.0, 4.0, stepping=Stepping(predict=True))
-    assert scene.starts == pytest.approx([0.0, 2.0, 4.0])
-
-
-def test_secant_predictor_does_not_look_back():
-    scene = Fake()
-    led(scene, 1.0, 0.5, stepping=Stepping(predict=True))
-    assert scene.starts == pytest.approx([0.0, 1.0])
-
-
 def test_a_load_repeated_is_a_state_repeated():
     states, converged, _ = led(Fake(), 1.0, 1.0)
     assert converged and loads(states) == [1.0, 1.0]
