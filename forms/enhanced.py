@@ -9,7 +9,9 @@ The deformation gradient of the displacement is followed by one of the cell's ow
 with the Jacobian J_0 at the middle of the cell and natural coordinates xi in [-1, 1]. The three
 vectors a_A and the alpha are unknowns of the same minimisation. H vanishes in the mean and at the
 middle of every cell, so that homogeneous states are met exactly. The a_A take the parasitic shear
-from bending, the alpha what is left of volumetric locking.
+from bending, the alpha what is left of volumetric locking. Cells should be nearly parallelepipeds:
+no element of eight nodes bends well as a trapezoid (MacNeal, Finite Elements in Analysis and Design
+3 (1987) 3-11).
 
 References
 ----------

@@ -20,19 +20,19 @@ class Chambers:
     ----------
     pressures
         Of each load name the constants in MPa that carry it.
-    potential
-        Minus the work ``P V`` of all rows in use, a UFL functional; 0 if none is in use.
+    potentials
+        Minus the work ``P V`` of each row in use, UFL functionals.
     """
 
     def __init__(self, body: Elastomer, in_use: Sequence[str]) -> None:
         self._comm = body.comm
         self.pressures: dict[str, list[Any]] = {}
-        self.potential: Any = 0
+        self.potentials: list[Any] = []
         self._volumes = {}
         for name in (name for name in in_use if name in ROWS):
             pressure = fem.Constant(body.mesh, compat.scalar_type(0.0))
             volume = body.chamber_volume(ROWS[name])
-            self.potential = self.potential - pressure * volume
+            self.potentials.append(-pressure * volume)
             self.pressures[name] = [pressure]
             self._volumes[name] = compat.form(volume)
 

@@ -123,11 +123,17 @@ def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> 
     """Return discontinuous Lagrange scalars, or tensors of a shape."""
     if _HAS_BASIX_UFL:
         return fem.functionspace(mesh, ("DG", degree, shape) if shape else ("DG", degree))
+    family = (_discontinuous(mesh), degree)
     if not shape:
-        return fem.FunctionSpace(mesh, ("DG", degree))
+        return fem.FunctionSpace(mesh, family)
     if len(shape) == 1:
-        return fem.VectorFunctionSpace(mesh, ("DG", degree), dim=shape[0])
-    return fem.TensorFunctionSpace(mesh, ("DG", degree), shape=shape)
+        return fem.VectorFunctionSpace(mesh, family, dim=shape[0])
+    return fem.TensorFunctionSpace(mesh, family, shape=shape)
+
+
+def _discontinuous(mesh: Any) -> str:
+    """Return the family that legacy UFL makes of "DG", with a warning on the screen."""
+    return "DQ" if mesh.ufl_cell().cellname() == "hexahedron" else "DG"
 
 
 def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int]) -> Any:
@@ -139,7 +145,8 @@ def displacement_pressure_space(mesh: Any, degree: int, pressure: tuple[str, int
         options = _pressure_options(pressure)
         p = basix.ufl.element(pressure[0], mesh.basix_cell(), pressure[1], **options)
     else:
-        p = ufl.FiniteElement(pressure[0], mesh.ufl_cell(), pressure[1])
+        family = _discontinuous(mesh) if pressure[0] == "DG" else pressure[0]
+        p = ufl.FiniteElement(family, mesh.ufl_cell(), pressure[1])
     return _with_displacement(mesh, degree, p)
 
 
@@ -148,7 +155,7 @@ def displacement_modes_space(mesh: Any, degree: int, n_modes: int) -> Any:
     if _HAS_BASIX_UFL:
         modes = basix.ufl.element("DG", mesh.basix_cell(), 0, shape=(n_modes,))
     else:
-        modes = ufl.VectorElement("DG", mesh.ufl_cell(), 0, dim=n_modes)
+        modes = ufl.VectorElement(_discontinuous(mesh), mesh.ufl_cell(), 0, dim=n_modes)
     return _with_displacement(mesh, degree, modes)
 
 
@@ -183,7 +190,8 @@ def cell_natural_coordinates(mesh: Any) -> tuple[Any, Any]:
     natural.x.array[:] = np.tile((2.0 * corners - 1.0).ravel(), len(natural.x.array) // 24)
     jacobian = fem.Function(discontinuous_space(mesh, 0, (3, 3)))
     middle = np.full((1, 3), 0.5)
-    jacobian.interpolate(fem.Expression(ufl.Jacobian(mesh), middle))
+    with _quiet_compiler():
+        jacobian.interpolate(fem.Expression(ufl.Jacobian(mesh), middle))
     return natural, jacobian
 
 

@@ -164,15 +164,15 @@ class Rib(Scene):
             "torque_Nmm": lambda torque: torque * w[5],
             "cable_N": lambda tension: cable_potential(tension, position, self._guide),
         }
-        energy = self.beams.energy
+        energies = [self.beams.energy]
         self.loads, self._shortenings = {}, {}
         for name in in_use:
             load = fem.Constant(mesh, compat.scalar_type(0.0))
-            energy = energy + self.beams.at_ends("tail", potentials[name](load))
+            energies.append(self.beams.at_ends("tail", potentials[name](load)))
             unit = potentials[name](1.0)
             self._shortenings[name] = compat.form(self.beams.at_ends("tail", -unit))
             self.loads[name] = [load]
-        return [energy], [self.beams.tangent_correction]
+        return energies, [self.beams.tangent_correction]
 
     def _stored(self) -> list[Any]:
         return [self.beams.energy]

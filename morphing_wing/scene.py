@@ -195,7 +195,7 @@ class Scene:
         raise NotImplementedError
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
-        """Return energies (one UFL functional a mesh) and tangent corrections (one a block).
+        """Return energies (UFL functionals) and tangent corrections (one a block).
 
         Sets ``self.loads``: of each load in use the constants that carry it.
         """

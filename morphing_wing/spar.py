@@ -156,7 +156,7 @@ class Spar(Scene):
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         self._chambers = Chambers(self.body, in_use)
         self.loads = self._chambers.pressures
-        return [self.body.energy + self._chambers.potential], [self.body.tangent_correction]
+        return [self.body.energy, *self._chambers.potentials], [self.body.tangent_correction]
 
     def _stored(self) -> list[Any]:
         return [self.body.energy]

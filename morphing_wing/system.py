@@ -57,26 +57,28 @@ class EquilibriumSystem:
     def set_energies(
         self, energies: Sequence[Any], tangent_corrections: Sequence[Any | None] | None = None
     ) -> None:
-        """Set the functional to a sum of energies, one UFL functional a mesh.
+        """Set the functional to a sum of energies, UFL functionals.
 
-        ``tangent_corrections[i]`` is a bilinear form of block i added to its tangent, or None.
+        Each is compiled on its own: a load or a part that comes or goes makes nothing else new.
+        ``tangent_corrections[i]`` is a bilinear form of block i, added to the tangent of the first
+        energy that depends on that block, or None.
         """
         self._residuals, self._tangents = [], []
         self._energies = list(energies)
-        for i, block in enumerate(self.blocks):
-            residual = _sum(_derivative(energy, block.function, 0) for energy in energies)
-            if residual is None:
-                continue
-            self._residuals.append((i, compat.form(residual)))
-            for j, other in enumerate(self.blocks):
-                tangent = _sum(
-                    _derivative(_derivative(energy, block.function, 0), other.function, 1)
-                    for energy in energies
-                )
-                if i == j and tangent_corrections is not None and tangent_corrections[i]:
-                    tangent = tangent + tangent_corrections[i]
-                if tangent is not None:
-                    self._tangents.append((i, j, compat.form(tangent)))
+        corrections = dict(enumerate(tangent_corrections or ()))
+        for energy in energies:
+            for i, block in enumerate(self.blocks):
+                residual = _derivative(energy, block.function, 0)
+                if residual is None:
+                    continue
+                self._residuals.append((i, compat.form(residual)))
+                for j, other in enumerate(self.blocks):
+                    tangent = _derivative(residual, other.function, 1)
+                    correction = corrections.pop(i, None) if i == j else None
+                    if correction is not None:
+                        tangent = tangent + correction
+                    if tangent is not None:
+                        self._tangents.append((i, j, compat.form(tangent)))
         if self._matrix is None:
             self._matrix = self._create_matrix()
 
@@ -125,9 +127,9 @@ class EquilibriumSystem:
         self.pull(x)
         local: list[np.ndarray | None] = [None] * len(self.blocks)
         for i, form in self._residuals:
-            array = np.zeros_like(self.blocks[i].function.x.array)
-            compat.assemble_vector(form, array)
-            local[i] = array
+            if local[i] is None:
+                local[i] = np.zeros_like(self.blocks[i].function.x.array)
+            compat.assemble_vector(form, local[i])
         self.gather(local, out)
 
     def tangent(self) -> PETSc.Mat:
@@ -299,12 +301,7 @@ def _cell_numbers(block: Block, numbers: np.ndarray, cell: int) -> np.ndarray:
 
 
 def _derivative(form: Any, function: Any, number: int) -> Any | None:
-    if form is None or function not in form.coefficients():
+    if function not in form.coefficients():
         return None
     argument = ufl.classes.Argument(function.function_space, number)
     return ufl.derivative(form, function, argument)
-
-
-def _sum(forms: Any) -> Any | None:
-    present = [form for form in forms if form is not None]
-    return sum(present[1:], present[0]) if present else None

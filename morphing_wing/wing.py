@@ -188,8 +188,7 @@ class Wing(Scene):
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
-        owners = (self.body, self.ribs, self.glue)
-        return [owner.iterate for owner in owners if owner is not None and owner.iterate]
+        return [part.iterate for part in self._parts() if part.iterate]
 
     def _newton(self) -> Newton:
         return Newton(
@@ -214,10 +213,7 @@ class Wing(Scene):
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         self._chambers = Chambers(self.body, in_use)
         self.loads = dict(self._chambers.pressures)
-        body = self.body.energy + self._chambers.potential
-        if self.ribs is None:
-            return [body], [self.body.tangent_correction]
-        ribs = self.ribs.energy
+        energies = self._stored() + self._chambers.potentials
         if "cable_N" in in_use:
             tension = fem.Constant(self.ribs.mesh, compat.scalar_type(0.0))
             self.loads["cable_N"] = [tension]
@@ -226,15 +222,15 @@ class Wing(Scene):
             )
             reach = cable_potential(1.0, displacement(self.ribs.function), guide)
             self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
-            ribs = ribs + self.ribs.at_ends("tail", tension * reach)
-        return [body + self.glue.energy, ribs], [
-            part.tangent_correction for part in (self.body, self.ribs, self.glue)
-        ]
+            energies.append(self.ribs.at_ends("tail", tension * reach))
+        return energies, [part.tangent_correction for part in self._parts()]
 
     def _stored(self) -> list[Any]:
-        if self.ribs is None:
-            return [self.body.energy]
-        return [self.body.energy + self.glue.energy, self.ribs.energy]
+        return [part.energy for part in self._parts()]
+
+    def _parts(self) -> list[Any]:
+        """Return what stores energy, in the order of the blocks."""
+        return [part for part in (self.body, self.ribs, self.glue) if part is not None]
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()

@@ -30,7 +30,7 @@ def hollow_box(mapping=distorted, n=3):
 
 def deformed_body(element, material=MATERIAL, seed=1):
     """A hollow box in a random finite deformation (displacements of a tenth of its size)."""
-    body = Elastomer(MPI.COMM_SELF, hollow_box(), material, ELEMENTS[element])
+    body = Elastomer(MPI.COMM_SELF, hollow_box(), material, ELEMENTS[element], thin=("body",))
     random = np.random.default_rng(seed)
     H = 0.15 * random.standard_normal((3, 3))
     moved = body.function.sub(0) if body.is_mixed else body.function

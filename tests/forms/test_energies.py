@@ -87,7 +87,7 @@ def test_tangent_is_symmetric_with_a_closed_chamber(element):
     assert difference.norm() < 1e-13 * A.norm()
 
 
-@DISPLACEMENT_FORMS
+@pytest.mark.parametrize("element", ["Q2 reduced", "Q1 reduced"])
 def test_mixed_point_correction_takes_the_linearised_pressure(element):
     body, system = under_pressure(element)
     consistent = system.tangent().copy()

@@ -41,6 +41,22 @@ def test_regularised_newton_ends_buckled_and_stable_in_an_unregularised_equilibr
     assert other.push(BEYOND_BUCKLING).iterations == 0
 
 
+def test_negative_pivots_that_the_mass_cannot_cure_end_the_solve_at_once():
+    strip = Strip(0.1, regularised=True)
+    strip.newton.factor.regularisation.mass[60:] = 0.0  # what is left is of one end
+    result = strip.push(BEYOND_BUCKLING)
+    assert not result.converged
+    assert result.reason.startswith("the way to the next equilibrium is unstable")
+    assert strip.newton.factor.factorisations <= result.iterations + 2
+
+
+def test_a_solve_does_not_inherit_the_mass_of_one_that_failed():
+    failed, fresh = Strip(0.1, regularised=True), Strip(0.1, regularised=True)
+    failed.newton.factor.amount = 1e6
+    results = [strip.push(0.01) for strip in (failed, fresh)]
+    assert results[0].iterations == results[1].iterations
+
+
 def test_regularisation_leaves_a_stable_problem_alone():
     plain, strip = Strip(0.1, regularised=False), Strip(0.1, regularised=True)
     results = [s.push(0.01) for s in (plain, strip)]

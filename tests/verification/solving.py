@@ -17,7 +17,8 @@ class Equilibrium:
     """
 
     def __init__(self, grid, material, element, volume=None, **held):
-        self.body = Elastomer(MPI.COMM_SELF, grid, material, ELEMENTS[element], **held)
+        self.body = Elastomer(
+            MPI.COMM_SELF, grid, material, ELEMENTS[element], thin=("body",), **held)
         self.system = EquilibriumSystem(self.body.comm, [self.body.block])
         self.pressure = fem.Constant(self.body.mesh, compat.scalar_type(0.0))
         energy = self.body.energy

@@ -138,7 +138,8 @@ def test_stress_of_mixed_forms_with_free_sides_is_the_closed_forms(element, mode
     assert computed == pytest.approx(exact_stress(mode, DRAGON_SKIN_30, lam), rel=1e-9)
 
 
-@pytest.mark.parametrize("element, grid", [("Q2 reduced", cube()), ("Q1 reduced", cube(warp=0.0))])
+@pytest.mark.parametrize("element, grid", [
+    ("Q2 reduced", cube()), ("Q1 reduced", cube(warp=0.0)), ("Q1 enhanced", cube())])
 @pytest.mark.parametrize("mode", list(MODES))
 @pytest.mark.parametrize("lam", [0.9, 1.5, 2.0])
 def test_stress_of_displacement_forms_with_free_sides_is_the_closed_forms(element, grid, mode, lam):
