@@ -110,7 +110,8 @@ class Newton:
         me = weakref.proxy(self)
         snes.setFunction(lambda *a: me._function(*a), self._b)
         snes.setJacobian(lambda *a: me._jacobian(*a), self.system.matrix)
-        snes.setTolerances(max_it=max_iterations)
+        # With a step tolerance PETSc may take a line search that met NaN for convergence.
+        snes.setTolerances(stol=0.0, max_it=max_iterations)
         snes.setConvergenceTest(lambda *a: me._test(*a))
         ksp = snes.getKSP()
         ksp.setType("preonly")
