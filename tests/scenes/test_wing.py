@@ -242,9 +242,9 @@ def test_stiffer_glue_tends_to_perfect_glue_with_the_reciprocal_of_its_stiffness
 
 def test_contact_is_marked_from_the_tension_on_at_which_the_skin_meets_a_rib():
     scene = wing(n_cells=4, skin_thickness=0.3, rib_positions=(0.75,))
-    path = actuated(scene, cable=[0.1, 0.3, 1.5])
+    path = actuated(scene, cable=[0.1, 0.15, 0.3])
     found = {s.load["cable_N"]: s.measures for s in path if s.requested}
-    assert [found[t]["contact"] for t in (0.1, 0.3, 1.5)] == [0.0, 0.0, 1.0]
+    assert [found[t]["contact"] for t in (0.1, 0.15, 0.3)] == [0.0, 0.0, 1.0]
     assert all((m["gap_mm"] < 0.0) == (m["contact"] == 1.0) for m in found.values())
 
 
