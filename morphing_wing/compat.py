@@ -89,14 +89,10 @@ def facet_tags(mesh: Any, facets: np.ndarray, values: np.ndarray) -> Any:
     return dolfinx.mesh.meshtags(mesh, mesh.topology.dim - 1, facets, values)
 
 
-def cell_tags(mesh: Any, cells: np.ndarray) -> Any:
-    """Return mesh tags that are 1 on some local cells (sorted) and 0 on the others."""
-    topology = mesh.topology
-    index_map = topology.index_map(topology.dim)
-    values = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int32)
-    values[cells] = 1
-    everywhere = np.arange(len(values), dtype=np.int32)
-    return dolfinx.mesh.meshtags(mesh, topology.dim, everywhere, values)
+def cell_tags(mesh: Any, values: np.ndarray) -> Any:
+    """Return mesh tags on all local cells, one value each."""
+    cells = np.arange(len(values), dtype=np.int32)
+    return dolfinx.mesh.meshtags(mesh, mesh.topology.dim, cells, np.asarray(values, np.int32))
 
 
 def cell_facets(mesh: Any) -> np.ndarray:
@@ -132,7 +128,7 @@ def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> 
 
 
 def _discontinuous(mesh: Any) -> str:
-    """Return the family that legacy UFL makes of "DG", with a warning on the screen."""
+    """Return the family that UFL would make of "DG" itself, but with a warning on the screen."""
     return "DQ" if mesh.ufl_cell().cellname() == "hexahedron" else "DG"
 
 
@@ -173,26 +169,18 @@ def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
     return {}
 
 
-def cell_natural_coordinates(mesh: Any) -> tuple[Any, Any]:
-    """Return natural coordinates in [-1, 1] of hexahedra and the Jacobian at their middle.
+def interpolation_points(space: Any) -> np.ndarray:
+    """Return the points of a Lagrange space's dofs in the reference cell, in the cell's order."""
+    points = space.element.interpolation_points
+    return points() if callable(points) else points
 
-    Returns
-    -------
-    natural : Function
-        Discontinuous and trilinear, 3 components.
-    jacobian : Function
-        dx/dX at the middle of each cell, X in [0, 1], constant in each cell, 3 x 3.
-    """
-    natural = fem.Function(discontinuous_space(mesh, 1, (3,)))
-    element = natural.function_space.element
-    corners = element.interpolation_points
-    corners = corners() if callable(corners) else corners
-    natural.x.array[:] = np.tile((2.0 * corners - 1.0).ravel(), len(natural.x.array) // 24)
-    jacobian = fem.Function(discontinuous_space(mesh, 0, (3, 3)))
-    middle = np.full((1, 3), 0.5)
+
+def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
+    """Return the function of a space with an expression's values at its points in each cell."""
+    function = fem.Function(space)
     with _quiet_compiler():
-        jacobian.interpolate(fem.Expression(ufl.Jacobian(mesh), middle))
-    return natural, jacobian
+        function.interpolate(fem.Expression(expression, points))
+    return function
 
 
 # -- forms and assembly -----------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from mpi4py import MPI
 from . import compat
 from .blocks import Block
 from .elements import Element
-from .forms.enhanced import N_MODES, enhanced_deformation_gradient
+from .errors import InputError
+from .forms.enhanced import N_MODES
 from .forms.hyperelasticity import mixed_volumetric_energy, volumetric_energy, yeoh_energy
 from .forms.kinematics import cofactor, deformation_gradient
 from .forms.mixed_point import mixed_point_correction
@@ -22,6 +23,7 @@ from .forms.pressure import enclosed_volume
 from .geometry.hexmesh import HexMesh
 from .iterate import Iterate
 from .materials import Yeoh
+from .thin import BULKY, THIN, ThinCells
 
 
 class Elastomer:
@@ -58,24 +60,23 @@ class Elastomer:
         self.comm, self.grid, self.material, self.element = comm, grid, material, element
         self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
         self._tag_faces()
-        self._thin = self._cells_of(thin) if element.enhanced else np.empty(0, dtype=np.int32)
-        self.is_enhanced = self.comm.allreduce(len(self._thin)) > 0
+        self._thin = self._thin_cells(thin) if element.enhanced else None
         if element.pressure is not None:
             space = compat.displacement_pressure_space(
                 self.mesh, element.degree, element.pressure
             )
-        elif self.is_enhanced:
+        elif self._thin is not None:
             space = compat.displacement_modes_space(self.mesh, element.degree, N_MODES)
-            self._natural, self._jacobian = compat.cell_natural_coordinates(self.mesh)
-            self._cell_tags = compat.cell_tags(self.mesh, self._thin)
         else:
             space = compat.vector_space(self.mesh, element.degree)
         self.function = fem.Function(space, name="elastomer")
         constrained = self._constrained(space, clamped, symmetry or {})
-        self.block = Block(self.function, constrained, self._absent_modes())
-        parts = ufl.split(self.function) if self.is_mixed else (self.function,)
-        self.u = parts[0]
-        self.p = parts[1] if element.pressure is not None else None
+        if self._thin is None:
+            self.block = Block(self.function, constrained)
+        else:
+            self.block = Block(self.function, constrained, self._thin.absent(space.sub(1)))
+        self.u = ufl.split(self.function)[0] if self.is_mixed else self.function
+        self.p = ufl.split(self.function)[1] if element.pressure is not None else None
         self.iterate = Iterate(self.function) if self.p is None else None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
@@ -84,7 +85,11 @@ class Elastomer:
     @property
     def is_mixed(self) -> bool:
         """Whether the function holds more than the displacement, which then is its first part."""
-        return self.element.pressure is not None or self.is_enhanced
+        return self.element.pressure is not None or self._thin is not None
+
+    def displacement_part(self, function: Any) -> Any:
+        """Return the displacement's part of a function, or of a space, of this element's kind."""
+        return function.sub(0) if self.is_mixed else function
 
     # -- energies -----------------------------------------------------------------------------
 
@@ -92,34 +97,23 @@ class Elastomer:
     def energy(self) -> Any:
         """Stored energy in N mm, a UFL functional."""
         total: Any = 0
-        for F, dx, dx_volumetric in self._parts(self.function):
+        for F, (dx, dx_volumetric) in zip(
+            self._gradients(self.function), self._measures(), strict=True
+        ):
             total = total + yeoh_energy(F, self.material.coefficients) * dx
             total = total + self._volumetric_density(F) * dx_volumetric
         return total
-
-    def _volumetric_density(self, F: Any) -> Any:
-        bulk = self.material.bulk
-        if self.p is None:
-            return volumetric_energy(F, self._constant(bulk))
-        inverse_bulk = self._constant(0.0 if np.isinf(bulk) else 1.0 / bulk)
-        return mixed_volumetric_energy(F, self.p, inverse_bulk)
 
     @cached_property
     def tangent_correction(self) -> Any | None:
         """Bilinear form that makes a displacement form's tangent robust; None for mixed forms."""
         if self.iterate is None:
             return None
+        bulk = [self._constant(self.material.bulk)]
         total: Any = 0
-        for part, (_, _, dx_volumetric) in enumerate(self._parts(self.function)):
-
-            def dilatation(w: Any, part: int = part) -> list[Any]:
-                return [ufl.det(self._parts(w)[part][0]) - 1.0]
-
+        for kind, (_, dx_volumetric) in enumerate(self._measures()):
             correction = mixed_point_correction(
-                dilatation,
-                [self._constant(self.material.bulk)],
-                self.function,
-                self.iterate.last,
+                partial(self._dilatation, kind), bulk, self.function, self.iterate.last,
                 self.iterate.step,
             )
             total = total + correction * dx_volumetric
@@ -134,7 +128,7 @@ class Elastomer:
     def volume_measure(self, degree: int | None = None) -> Any:
         """Return dx with a quadrature degree."""
         degree = degree or self.element.quadrature
-        tags = self._cell_tags if self.is_enhanced else None
+        tags = None if self._thin is None else self._thin.tags
         return ufl.Measure("dx", self.mesh, subdomain_data=tags,
                            metadata={"quadrature_degree": degree})
 
@@ -170,25 +164,35 @@ class Elastomer:
 
     # -- internals ----------------------------------------------------------------------------
 
-    def _parts(self, w: Any) -> list[tuple[Any, Any, Any]]:
-        """Return deformation gradient, isochoric and volumetric measure of each kind of cells.
+    def _gradients(self, w: Any) -> list[Any]:
+        """Return the deformation gradient in each kind of cells: in all, or in bulky and thin ones.
 
         ``w`` is ``function`` or another one of its space.
         """
-        element = self.element
-        degrees = element.quadrature, element.volumetric_quadrature
-        if not self.is_enhanced:
-            u = ufl.split(w)[0] if self.is_mixed else w
-            return [(deformation_gradient(u), *map(self.volume_measure, degrees))]
+        if self._thin is None:
+            return [deformation_gradient(ufl.split(w)[0] if self.is_mixed else w)]
         u, modes = ufl.split(w)
         F = deformation_gradient(u)
-        enhanced = enhanced_deformation_gradient(
-            F, modes, self._natural, self._jacobian, ufl.JacobianDeterminant(self.mesh)
-        )
-        # The modes need all points to be felt, and keep incompressibility from locking them.
-        bulky, thin = (tuple(self.volume_measure(degree)(kind) for degree in used)
-                       for kind, used in ((0, degrees), (1, 2 * (element.quadrature,))))
-        return [(F, *bulky), (enhanced, *thin)]
+        return [F, self._thin.deformation_gradient(F, modes)]
+
+    def _measures(self) -> list[tuple[Any, Any]]:
+        """Return isochoric and volumetric measure of each kind of cells."""
+        degree, volumetric = self.element.quadrature, self.element.volumetric_quadrature
+        dx, dx_volumetric = self.volume_measure(degree), self.volume_measure(volumetric)
+        if self._thin is None:
+            return [(dx, dx_volumetric)]
+        # One point would not feel the modes, which keep incompressibility from locking the others.
+        return [(dx(BULKY), dx_volumetric(BULKY)), (dx(THIN), dx(THIN))]
+
+    def _dilatation(self, kind: int, w: Any) -> list[Any]:
+        return [ufl.det(self._gradients(w)[kind]) - 1.0]
+
+    def _volumetric_density(self, F: Any) -> Any:
+        bulk = self.material.bulk
+        if self.p is None:
+            return volumetric_energy(F, self._constant(bulk))
+        inverse_bulk = self._constant(0.0 if np.isinf(bulk) else 1.0 / bulk)
+        return mixed_volumetric_energy(F, self.p, inverse_bulk)
 
     def _constant(self, value: float) -> fem.Constant:
         return fem.Constant(self.mesh, compat.scalar_type(value))
@@ -243,12 +247,12 @@ class Elastomer:
         return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells))
 
     def region_mass(self, region: str) -> np.ndarray:
-        """Return the lumped volume in mm^3 of a region on each owned unknown of a block.
+        """Return the lumped volume in mm^3 of a region on each owned unknown.
 
-        Not for forms with a pressure; zero for unknowns that are no displacements.
+        Zero for unknowns that are no displacements.
         """
         density = fem.Function(compat.discontinuous_space(self.mesh, 0))
-        for cell in self._cells_of([region]):
+        for cell in self._cells_of(region):
             density.x.array[density.function_space.dofmap.cell_dofs(cell)] = 1.0
         space = self.function.function_space
         v = ufl.TestFunction(space)
@@ -268,24 +272,24 @@ class Elastomer:
             found[self._drawn[1]] = True
         return found[self.block.owned]
 
-    def _cells_of(self, regions: Sequence[str]) -> np.ndarray:
-        """Return the local cells of regions; those that the grid lacks have none."""
-        cells = [self.grid.regions[name] for name in regions if name in self.grid.regions]
-        here = np.isin(compat.original_cells(self.mesh), np.concatenate([[], *cells]))
-        return np.flatnonzero(here).astype(np.int32)
+    def _thin_cells(self, regions: Sequence[str]) -> ThinCells | None:
+        """Return the cells of thin regions, None if no rank has any."""
+        if not regions:
+            name = self.element.name
+            raise InputError(f"element = {name!r}: must be of a body with thin parts, as a wing is")
+        if not any(len(self.grid.regions[name]) for name in regions):
+            return None
+        return ThinCells(self.mesh, self._cells_of(*regions))
 
-    def _absent_modes(self) -> np.ndarray:
-        """Return the modes' dofs in cells that have no strains of their own."""
-        if not self.is_enhanced:
-            return np.empty(0, dtype=np.int32)
-        modes = self.function.function_space.sub(1).dofmap
-        cells = np.setdiff1d(np.arange(len(compat.original_cells(self.mesh))), self._thin)
-        return np.concatenate([np.empty(0, np.int32), *(modes.cell_dofs(c) for c in cells)])
+    def _cells_of(self, *regions: str) -> np.ndarray:
+        """Return the local cells of regions."""
+        cells = np.concatenate([self.grid.regions[name] for name in regions])
+        return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells)).astype(np.int32)
 
     def _constrained(
         self, space: Any, clamped: Sequence[str], symmetry: dict[str, int]
     ) -> np.ndarray:
-        displacement = space.sub(0) if self.is_mixed else space
+        displacement = self.displacement_part(space)
         found = []
         pairs = [(face, axis) for face in clamped for axis in range(3)] + list(symmetry.items())
         for face, axis in pairs:

@@ -2,9 +2,9 @@
 
 Where thin skin buckles, the tangent K of a displacement form has negative eigenvalues away from
 equilibrium and a plain Newton step runs towards a saddle. Here (K + a M) d = -F is solved with a
-lumped mass M of the thin part; ``a`` rises until the factor has no surplus negative pivots and the
-step is short, and falls to zero as the residual does. The residual is untouched: what converges is
-an equilibrium of the unregularised problem.
+lumped mass M of the thin part; ``a`` rises until the factor has no surplus negative pivots, and
+falls to zero as the residual does. The residual is untouched: what converges is an equilibrium of
+the unregularised problem.
 """
 
 from __future__ import annotations
@@ -60,11 +60,13 @@ class InertiaCholesky:
         Whether the tangent is newer than the factor.
     incurable
         Whether more mass, raised ``most_in_vain`` times in a row by ``raises``, took away none of
-        the surplus negative pivots of the last tangent: the thin part is not what they are of.
+        the surplus negative pivots of the last tangent, and they are more than ``tolerated``.
+    tolerated
+        Surplus negative pivots of the state that the solve starts from.
     """
 
     raises = 100.0
-    most_in_vain = 2
+    most_in_vain = 3
 
     def __init__(
         self, regularisation: Regularisation | None, expected_negative: int, prefix: str
@@ -77,6 +79,7 @@ class InertiaCholesky:
         self.factorisations = 0
         self.stale = True
         self.incurable = False
+        self.tolerated = 0
         self._prefix = prefix
         self._inner: PETSc.PC | None = None
         self._unit_value: float | None = None
@@ -95,13 +98,13 @@ class InertiaCholesky:
         self._factorise()
         if self.regularisation is None:
             return
-        unit, in_vain = self._unit(), 0
-        while self.surplus > 0 and in_vain < self.most_in_vain:
-            before = self.surplus
+        unit, least, in_vain = self._unit(), self.surplus, 0
+        while self.surplus > 0 and in_vain < self.most_in_vain and self.error >= 0:
             self.amount = max(self.amount * self.raises, unit)
             self._factorise()
-            in_vain = in_vain + 1 if self.surplus >= before else 0
-        self.incurable = self.surplus > 0
+            in_vain = in_vain + 1 if self.surplus >= least else 0
+            least = min(least, self.surplus)
+        self.incurable = self.surplus > self.tolerated
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
         """Solve, and shorten a step that is too long."""
@@ -127,10 +130,12 @@ class InertiaCholesky:
 
     def memory(self) -> dict[str, float]:
         """Return what the next solve inherits from those before; the same on all ranks."""
-        return {} if self._unit_value is None else {"mass_unit": self._unit_value}
+        found = {"tolerated_pivots": self.tolerated}
+        return found | ({} if self._unit_value is None else {"mass_unit": self._unit_value})
 
     def recall(self, memory: Mapping[str, float]) -> None:
         """Take over what `memory` returned, also in an earlier run."""
+        self.tolerated = int(memory["tolerated_pivots"])
         self._unit_value = memory.get("mass_unit", self._unit_value)
 
     def begin(self) -> None:

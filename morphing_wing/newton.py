@@ -39,7 +39,8 @@ class NewtonResult:
     Attributes
     ----------
     converged
-        Whether the residual fell below its tolerance.
+        Whether the residual fell below its tolerance, or the last step to rounding: below 1e-8
+        of the unknowns' norm, where convergence is quadratic.
     reason
         In words why it stopped.
     iterations
@@ -71,7 +72,8 @@ class Newton:
     max_iterations
         Newton iterations after which a load step is given up.
     relative_tolerance
-        Largest residual of a solution, relative to the force that `solve` is given.
+        Largest residual of a solution, relative to the force that `solve` is given; where rounding
+        of stiff parts is larger, the last step decides, see `NewtonResult`.
     before_tangent
         Called before each tangent with the number of the iteration in the solve.
     """
@@ -141,6 +143,8 @@ class Newton:
             # is none yet, where the first state is at rest.
             self._assemble(self._snes.getIterationNumber())
             self.factor.inspect(self.system.matrix)
+        if reason > 0:
+            self.factor.tolerated = max(self.factor.surplus, 0)
         return NewtonResult(
             converged=reason > 0,
             reason=self._words(reason),
@@ -155,7 +159,7 @@ class Newton:
         if self.factor.error < 0:  # else it would pass for the NaN that PETSc makes of it
             return f"the tangent could not be factorised (MUMPS error {self.factor.error})"
         if self.factor.incurable:
-            return "the way to the next equilibrium is unstable, and not by the skin alone"
+            return "the way is unstable, and mass on the thin part does not help"
         return REASONS.get(reason, f"SNES reason {reason}")
 
     # -- called by PETSc ----------------------------------------------------------------------

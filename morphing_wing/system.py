@@ -74,11 +74,13 @@ class EquilibriumSystem:
                 self._residuals.append((i, compat.form(residual)))
                 for j, other in enumerate(self.blocks):
                     tangent = _derivative(residual, other.function, 1)
+                    if tangent is None:
+                        continue
                     correction = corrections.pop(i, None) if i == j else None
                     if correction is not None:
                         tangent = tangent + correction
-                    if tangent is not None:
-                        self._tangents.append((i, j, compat.form(tangent)))
+                    self._tangents.append((i, j, compat.form(tangent)))
+        assert not any(corrections.values()), "a correction of a block that no energy depends on"
         if self._matrix is None:
             self._matrix = self._create_matrix()
 

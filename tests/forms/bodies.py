@@ -33,7 +33,7 @@ def deformed_body(element, material=MATERIAL, seed=1):
     body = Elastomer(MPI.COMM_SELF, hollow_box(), material, ELEMENTS[element], thin=("body",))
     random = np.random.default_rng(seed)
     H = 0.15 * random.standard_normal((3, 3))
-    moved = body.function.sub(0) if body.is_mixed else body.function
+    moved = body.displacement_part(body.function)
     moved.interpolate(lambda x: H @ x + 0.1 * np.sin(2.0 * x[[1, 2, 0]]))
     noise = 0.01 * random.standard_normal(len(body.function.x.array))
     body.function.x.array[:] += noise

@@ -16,5 +16,5 @@ def small_wing(comm, element="Q1 enhanced", geometry=GEOMETRY):
 def move_elastomer(scene, motion):
     """Give the elastomer the displacement ``motion`` of its points, both (n, 3) in mm."""
     body = scene.body
-    part = body.function.sub(0) if body.is_mixed else body.function
+    part = body.displacement_part(body.function)
     part.interpolate(lambda x: motion(x.T).T)

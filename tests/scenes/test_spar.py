@@ -182,3 +182,9 @@ def test_unknown_fidelity_and_element_are_refused_in_one_sentence():
         Spar(SMALL, fidelity="best", comm=MPI.COMM_SELF)
     with pytest.raises(InputError, match=r"^element = 'Q3': must be one of Q2/P1disc, "):
         Spar(SMALL, element="Q3", comm=MPI.COMM_SELF)
+
+
+@pytest.mark.quick
+def test_an_element_for_thin_parts_is_refused_in_one_sentence():
+    with pytest.raises(InputError, match="^element = 'Q1 enhanced': must be of a body wi"):
+        spar(1, "Q1 enhanced", plain=True)

@@ -78,6 +78,38 @@ def test_loads_that_nobody_asks_for_cost_no_integral():
     assert set(scene.loads) == {"upper_MPa", "cable_N"}
 
 
+def test_another_load_compiles_no_tangent_anew_but_its_own(monkeypatch):
+    compiled, form = [], compat.form
+
+    def noted(expression):
+        if len(expression.arguments()) == 2:
+            compiled.append(expression.signature())
+        return form(expression)
+
+    monkeypatch.setattr(compat, "form", noted)
+    actuated(wing(), upper=0.001)
+    few = set(compiled)
+    compiled.clear()
+    actuated(wing(), upper=0.001, cable=0.01)
+    assert few < set(compiled)
+    assert len(set(compiled) - few) == 1
+
+
+@pytest.mark.quick
+def test_only_displacements_of_the_skin_have_its_mass():
+    scene = wing()
+    mass, moves = scene.body.region_mass("skin"), scene.body.is_displacement()
+    assert len(mass) == scene.body.block.n_owned and not moves.all()
+    assert np.all(mass[~moves] == 0.0)
+    mesh = wing_mesh(GEOMETRY, MESHING)
+    corners = mesh.points[mesh.cells[mesh.regions["skin"]]]
+    middle = [corners[:, far].mean(axis=1) - corners[:, near].mean(axis=1)
+              for far, near in (([1, 3, 5, 7], [0, 2, 4, 6]), ([2, 3, 6, 7], [0, 1, 4, 5]),
+                                ([4, 5, 6, 7], [0, 1, 2, 3]))]
+    volume = np.abs(np.linalg.det(np.stack(middle, axis=-1))).sum()
+    assert mass.sum() == pytest.approx(3.0 * volume, rel=1e-2)
+
+
 @pytest.mark.parametrize("changes, present, absent", [
     (SPAR, {"span_angle_deg"}, {"chord_angle_deg", "rib_1_rotation_deg", "contact"}),
     (NO_SKIN, {"chord_angle_deg", "rib_1_rotation_deg"}, {"gap_mm", "contact"}),

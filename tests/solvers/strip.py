@@ -43,7 +43,7 @@ class Strip:
     def push(self, by):
         """Move the right end by mm to the left and solve; return Newton's result."""
         space = self.body.function.function_space
-        right = self._right_end(space.sub(0) if self.body.is_mixed else space)
+        right = self._right_end(self.body.displacement_part(space))
         self.body.function.x.array[right] = -by
         result = self.newton.solve(1e-2)
         if self.body.iterate:

@@ -43,11 +43,12 @@ def test_regularised_newton_ends_buckled_and_stable_in_an_unregularised_equilibr
 
 def test_negative_pivots_that_the_mass_cannot_cure_end_the_solve_at_once():
     strip = Strip(0.1, regularised=True)
-    strip.newton.factor.regularisation.mass[60:] = 0.0  # what is left is of one end
+    far = strip.body.function.function_space.tabulate_dof_coordinates()[:, 0] > 2.0
+    strip.newton.factor.regularisation.mass[np.repeat(far, 3)] = 0.0  # what is left is of one end
     result = strip.push(BEYOND_BUCKLING)
     assert not result.converged
-    assert result.reason.startswith("the way to the next equilibrium is unstable")
-    assert strip.newton.factor.factorisations <= result.iterations + 2
+    assert result.reason == "the way is unstable, and mass on the thin part does not help"
+    assert result.iterations <= 3 and strip.newton.factor.factorisations <= 10
 
 
 def test_a_solve_does_not_inherit_the_mass_of_one_that_failed():

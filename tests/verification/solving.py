@@ -47,4 +47,4 @@ class Equilibrium:
 
     def displacement_function(self):
         """Displacement part of the unknown, to be interpolated into."""
-        return self.body.function.sub(0) if self.body.is_mixed else self.body.function
+        return self.body.displacement_part(self.body.function)
