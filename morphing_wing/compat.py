@@ -6,12 +6,11 @@ version numbers.
 
 from __future__ import annotations
 
+import fcntl
 import logging
 import os
-import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from functools import cache
+from contextlib import ExitStack, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +30,6 @@ _FORM_KEYWORDS = (
     if "jit_options" in fem.form.__code__.co_varnames
     else {"jit_params": _JIT_OPTIONS}
 )
-_LONGEST_COMPILATION = 900.0  # s
 _HAS_BASIX_UFL = hasattr(fem, "functionspace")
 if _HAS_BASIX_UFL:
     import basix.ufl
@@ -188,21 +186,27 @@ def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
 
 def form(expression: Any) -> Any:
     """Compile a UFL form with optimised kernels."""
-    _forget_interrupted_compilations()
-    with _quiet_compiler():
+    comm = expression.ufl_domains()[0].ufl_cargo().comm
+    with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
         return fem.form(expression, **_FORM_KEYWORDS)
 
 
-@cache
-def _forget_interrupted_compilations() -> None:
-    """Remove what a compiler that was killed left in the cache, or its kernel fails for ever."""
-    if MPI.COMM_WORLD.rank == 0:
-        folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "fenics"
-        for source in folder.glob("*.c"):
-            unfinished = not source.with_suffix(".c.cached").exists()
-            with suppress(OSError):
-                if unfinished and time.time() - source.stat().st_mtime > _LONGEST_COMPILATION:
+@contextmanager
+def _alone_in_cache() -> Iterator[None]:
+    """Let one process at a time compile, and forget what a compiler that was killed has left.
+
+    Otherwise others give up after ten seconds' wait, and an unfinished kernel fails for ever.
+    """
+    folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "fenics"
+    with ExitStack() as held:
+        with suppress(OSError):  # where files cannot be locked, compile without
+            folder.mkdir(parents=True, exist_ok=True)
+            lock = held.enter_context(open(folder / "morphing-wing.lock", "w"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            for source in folder.glob("*.c"):
+                if not source.with_suffix(".c.cached").exists():
                     source.unlink()
+        yield
 
 
 @contextmanager
