@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -22,7 +23,7 @@ from .system import EquilibriumSystem
 from .targets import load_targets
 
 
-class Scene:
+class Scene(ABC):
     """A structure with named loads that can be led along a path of equilibria.
 
     A subclass builds ``system``, returns its solver from ``_newton``, and says in ``_functional``
@@ -190,32 +191,32 @@ class Scene:
 
     # -- for subclasses -----------------------------------------------------------------------
 
+    @abstractmethod
     def _newton(self) -> Newton:
         """Return the solver of this scene."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         """Return energies (UFL functionals) and tangent corrections (one a block).
 
         Sets ``self.loads``: of each load in use the constants that carry it.
         """
-        raise NotImplementedError
 
     def _iterates(self) -> list[Iterate]:
         """Return what mixed-point tangents need of earlier iterates."""
         return []
 
+    @abstractmethod
     def _stored(self) -> list[Any]:
         """Return the stored energies, UFL functionals without the loads' potentials."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _measures(self) -> dict[str, float]:
         """Return what is measured in the present state."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _conjugates(self) -> dict[str, float]:
         """Return, of each load in use, the displacement on which it does work."""
-        raise NotImplementedError
 
     # -- internals ----------------------------------------------------------------------------
 

@@ -1,8 +1,10 @@
 """Kernels are compiled once, whoever else compiles and whatever a killed compiler has left."""
 
+import fcntl
 import os
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -13,6 +15,7 @@ import numpy as np
 from morphing_wing import compat
 mesh = compat.create_mesh(MPI.COMM_SELF, "interval", np.array([[0, 1]]), np.eye(3)[:2])
 import ufl
+print("about to compile", flush=True)
 length = compat.form(compat.scalar_type(3.0) * ufl.dx(domain=mesh))
 print(compat.assemble_scalar(MPI.COMM_SELF, length))
 """
@@ -44,6 +47,13 @@ def test_what_a_killed_compiler_has_left_is_compiled_anew(tmp_path):
 
 
 @pytest.mark.quick
-def test_several_programs_at_once_share_one_cache(tmp_path):
-    lengths = [length(process) for process in [started(tmp_path) for _ in range(3)]]
-    assert lengths == pytest.approx([3.0 * 2**0.5] * 3)
+def test_a_program_waits_while_another_one_compiles(tmp_path):
+    kernels = tmp_path / "fenics"
+    kernels.mkdir()
+    with open(kernels / "morphing-wing.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        waiting = started(tmp_path)
+        assert waiting.stdout.readline() == "about to compile\n"
+        time.sleep(2.0)  # several times what its kernel takes
+        assert waiting.poll() is None and not list(kernels.glob("*.c"))
+    assert length(waiting) == pytest.approx(3.0 * 2**0.5)
