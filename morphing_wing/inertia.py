@@ -126,7 +126,7 @@ class InertiaCholesky:
         if self._inner is not None:
             self._inner.destroy()
             self._diagonal.destroy()
-            self._inner = None
+            self._inner = self._diagonal = None
 
     def memory(self) -> dict[str, float]:
         """Return what the next solve inherits from those before; the same on all ranks."""

@@ -153,6 +153,12 @@ class Newton:
             negative_pivots=self.factor.surplus,
         )
 
+    def renew(self) -> None:
+        """Take the system's new matrix, whose pattern may be another."""
+        self.factor.destroy()
+        me = weakref.proxy(self)
+        self._snes.setJacobian(lambda *a: me._jacobian(*a), self.system.matrix)
+
     def _words(self, reason: int) -> str:
         if reason > 0:
             return "converged"

@@ -6,6 +6,7 @@ import os
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -14,6 +15,8 @@ from mpi4py import MPI
 
 from . import compat
 from . import restart as restart_files
+from .blocks import Block
+from .contact import Contact
 from .errors import InputError
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
@@ -21,6 +24,10 @@ from .path import Path, State
 from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
 from .targets import load_targets
+
+
+MOST_ROUNDS = 6
+"""Solves of one load step between which the pairs in contact may change."""
 
 
 class Scene(ABC):
@@ -36,6 +43,8 @@ class Scene(ABC):
         What, how finely, and on which ranks.
     multiplicity
         How often the modelled part stands in the whole: 2 for a half model.
+    contact
+        What may touch; None: nothing does, or its forces are left out.
     """
 
     name = "scene"
@@ -45,6 +54,7 @@ class Scene(ABC):
     multiplicity = 1
 
     system: EquilibriumSystem
+    contact: Contact | None = None
 
     def __init__(self, fidelity: str, comm: MPI.Comm | None) -> None:
         self.fidelity = fidelity
@@ -62,6 +72,11 @@ class Scene(ABC):
     def dofs(self) -> int:
         """Global number of unknowns."""
         return self.system.size
+
+    @property
+    def kept_blocks(self) -> list[Block]:
+        """Blocks whose functions are kept with a state; what is a rank's own follows from them."""
+        return [block for block in self.system.blocks if not block.local]
 
     @cached_property
     def newton(self) -> Newton:
@@ -128,8 +143,19 @@ class Scene(ABC):
 
     def solve(self) -> NewtonResult:
         """Find the equilibrium of the present loads from the present state."""
+        if self.contact is not None and self.contact.prepare(self.system):
+            self.newton.renew()
         self._largest_force = max(self._largest_force, self._load_force())
-        return self.newton.solve(self._largest_force)
+        result = self.newton.solve(self._largest_force)
+        iterations, rounds = result.iterations, 1
+        while result.converged and self.contact is not None and self.contact.review(self.system):
+            self.newton.renew()
+            if rounds == MOST_ROUNDS:
+                reason = f"what touches what still changed after {rounds} solves"
+                return replace(result, converged=False, reason=reason, iterations=iterations)
+            result = self.newton.solve(self._largest_force)
+            iterations, rounds = iterations + result.iterations, rounds + 1
+        return replace(result, iterations=iterations)
 
     def unknowns(self) -> list[np.ndarray]:
         """Return copies of the rank-local values of all functions."""
@@ -169,12 +195,13 @@ class Scene(ABC):
             negative_pivots=result.negative_pivots,
             step_seconds=seconds,
             requested=requested,
-            fields={b.function.name: b.function.x.array.copy() for b in self.system.blocks},
+            fields={b.function.name: b.function.x.array.copy() for b in self.kept_blocks},
         )
 
     def show(self, state: State) -> None:
         """Copy a state's fields into the functions."""
-        self.set_unknowns([state.fields[b.function.name] for b in self.system.blocks])
+        for block in self.kept_blocks:
+            block.function.x.array[:] = state.fields[block.function.name]
 
     # -- for restarts -------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ import numpy as np
 import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
-from scipy.sparse import coo_matrix
+from scipy.sparse import coo_matrix, csr_matrix
 
 from . import compat
 from .blocks import Block, SharedUnknowns
@@ -31,23 +31,27 @@ class EquilibriumSystem:
     blocks
         Independent blocks first, then shared ones.
     sharing
-        For each shared block, in order, what it stands for.
+        For each shared block, in order, what it stands for; None: for nothing, see `renumber`.
     """
 
     def __init__(
-        self, comm: MPI.Comm, blocks: Sequence[Block], sharing: Sequence[SharedUnknowns] = ()
+        self, comm: MPI.Comm, blocks: Sequence[Block],
+        sharing: Sequence[SharedUnknowns | None] = (),
     ) -> None:
         self.comm = comm
         self.blocks = list(blocks)
         self._n_independent = len(blocks) - len(sharing)
         self._number_independent()
         for block, shared in zip(self.blocks[self._n_independent :], sharing, strict=True):
-            self._number_shared(block, shared)
+            block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
+            if shared is not None:
+                self._number_shared(block, shared)
         self.n_owned = sum(block.n_owned for block in self.blocks[: self._n_independent])
         self.x = PETSc.Vec().createMPI((self.n_owned, None), comm=comm)
         self._lay_out()
         self._build_scatter()
         self._matrix: PETSc.Mat | None = None
+        self._lasting_pattern: Any = None
         self._residuals: list[Any] = []
         self._tangents: list[tuple[int, int, Any]] = []
         self._energies: list[Any] = []
@@ -84,6 +88,27 @@ class EquilibriumSystem:
         if self._matrix is None:
             self._matrix = self._create_matrix()
 
+    def renumber(self, block: Block, numbers: np.ndarray) -> None:
+        """Let a shared block's dofs stand for other unknowns. Collective; the matrix is a new one.
+
+        Parameters
+        ----------
+        block
+            One of those that stood for nothing at first.
+        numbers
+            Global number of each local dof, -1 for one that stands for nothing.
+        """
+        block.numbers = numbers
+        block.function.x.array[:] = 0.0
+        for old in (self._scatter, self._local, self._matrix):
+            if old is not None:
+                old.destroy()
+        self._lay_out()
+        self._build_scatter()
+        self._matrix = None
+        if self._tangents:
+            self._matrix = self._create_matrix()
+
     @property
     def matrix(self) -> PETSc.Mat:
         """The one matrix of this system."""
@@ -103,6 +128,8 @@ class EquilibriumSystem:
         values = self._local.getArray(readonly=True)
         for block, (positions, source) in zip(self.blocks, self._sources, strict=True):
             block.function.x.array[positions] = values[source]
+            if block.refresh is not None:
+                block.refresh()
 
     def push(self, x: PETSc.Vec) -> None:
         """Copy the functions' owned values into the vector."""
@@ -173,7 +200,6 @@ class EquilibriumSystem:
             start += block.n_owned
 
     def _number_shared(self, block: Block, shared: SharedUnknowns) -> None:
-        block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
         source = self.blocks[shared.of]
         free = self._free(source)
         dofmap = block.function.function_space.dofmap
@@ -220,19 +246,7 @@ class EquilibriumSystem:
     # -- the matrix ---------------------------------------------------------------------------
 
     def _create_matrix(self) -> PETSc.Mat:
-        owned = np.arange(self._first, self._first + self.n_owned)
-        rows, columns = [owned], [owned]
-        for i, j, form in self._tangents:
-            if max(i, j) < self._n_independent:
-                found = self._independent_pattern(i, j, form)
-            else:
-                found = self._shared_pattern(i, j)
-            rows.append(found[0])
-            columns.append(found[1])
-        row, column = np.concatenate(rows) - self._first, np.concatenate(columns)
-        shape = (self.n_owned, self.size)
-        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
-        csr.sort_indices()
+        csr = self._pattern()
         A = PETSc.Mat().createAIJ(
             ((self.n_owned, None), (self.n_owned, None)),
             csr=(
@@ -255,6 +269,32 @@ class EquilibriumSystem:
         start, end = self._spans[b]
         return PETSc.IS().createStride(end - start, start, 1, comm=MPI.COMM_SELF)
 
+    def _pattern(self) -> csr_matrix:
+        """Return this rank's rows of the pattern; what never changes is found once."""
+        changing = [block.local for block in self.blocks]
+        if self._lasting_pattern is None:
+            owned = np.arange(self._first, self._first + self.n_owned)
+            found = [(owned, owned)]
+            for i, j, form in self._tangents:
+                if max(i, j) < self._n_independent:
+                    found.append(self._independent_pattern(i, j, form))
+                elif not (changing[i] or changing[j]):
+                    found.append(self._shared_pattern(i, j))
+            self._lasting_pattern = self._as_rows(found)
+        found = [self._shared_pattern(i, j) for i, j, _ in self._tangents
+                 if changing[i] or changing[j]]
+        csr = self._lasting_pattern + self._as_rows(found) if found else self._lasting_pattern
+        csr.sort_indices()
+        return csr
+
+    def _as_rows(self, found: Sequence[tuple[np.ndarray, np.ndarray]]) -> csr_matrix:
+        row = np.concatenate([rows for rows, _ in found]) - self._first
+        column = np.concatenate([columns for _, columns in found])
+        shape = (self.n_owned, self.size)
+        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
+        csr.data[:] = 1  # what stands there often must not overflow to nothing
+        return csr
+
     def _independent_pattern(self, i: int, j: int, form: Any) -> tuple[np.ndarray, np.ndarray]:
         pattern = compat.sparsity(form)
         indptr, indices, _ = pattern.getValuesCSR()
@@ -275,31 +315,27 @@ class EquilibriumSystem:
         return np.concatenate(self.comm.allgather(self._of_rows(b)))
 
     def _shared_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
-        left, right = self.blocks[i], self.blocks[j]
+        left, right = (self._cell_numbers(self.blocks[b]) for b in (i, j))
         shared = left if i >= self._n_independent else right
-        points = np.nonzero(shared.numbers.reshape(-1, shared.block_size)[:, 0] >= 0)[0]
-        dofmap = shared.function.function_space.dofmap
-        n_cells = dofmap.index_map.size_local + dofmap.index_map.num_ghosts
-        rows, columns = [], []
-        for cell in range(n_cells):
-            if np.isin(dofmap.cell_dofs(cell), points).any():
-                row, column = (_cell_numbers(block, self._free(block), cell)
-                               for block in (left, right))
-                grid = np.meshgrid(row[row >= 0], column[column >= 0], indexing="ij")
-                rows.append(grid[0].ravel())
-                columns.append(grid[1].ravel())
-        empty = np.empty(0, dtype=np.int64)
-        row, column = (np.concatenate([empty, *part]) for part in (rows, columns))
-        everything = self.comm.allgather((row, column))
-        row, column = (np.concatenate([part[k] for part in everything]) for k in (0, 1))
+        used = (shared >= 0).any(axis=1)
+        shape = (used.sum(), left.shape[1], right.shape[1])
+        row = np.broadcast_to(left[used][:, :, None], shape).ravel()
+        column = np.broadcast_to(right[used][:, None, :], shape).ravel()
+        present = (row >= 0) & (column >= 0)
+        pairs = np.unique(np.stack([row[present], column[present]]), axis=1)
+        row, column = np.concatenate(self.comm.allgather(pairs), axis=1)
         mine = (row >= self._first) & (row < self._first + self.n_owned)
         return row[mine], column[mine]
 
-
-def _cell_numbers(block: Block, numbers: np.ndarray, cell: int) -> np.ndarray:
-    dofs = block.function.function_space.dofmap.cell_dofs(cell)
-    size = block.block_size
-    return numbers[(dofs[:, None] * size + np.arange(size)).ravel()]
+    def _cell_numbers(self, block: Block) -> np.ndarray:
+        """Return the numbers of each local cell's unknowns, -1 for what is held or nothing."""
+        dofmap, mesh = block.function.function_space.dofmap, block.function.function_space.mesh
+        index_map = mesh.topology.index_map(mesh.topology.dim)
+        n_cells = index_map.size_local + index_map.num_ghosts
+        nodes = np.array([dofmap.cell_dofs(cell) for cell in range(n_cells)], dtype=np.int64)
+        size = block.block_size
+        dofs = nodes.reshape(n_cells, dofmap.dof_layout.num_dofs, 1) * size + np.arange(size)
+        return self._free(block)[dofs.reshape(n_cells, dofs.shape[1] * size)]
 
 
 def _derivative(form: Any, function: Any, number: int) -> Any | None:

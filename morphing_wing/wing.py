@@ -30,7 +30,7 @@ from .iterate import Iterate
 from .materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
-from .pocket import Pocket
+from .pocket import in_pocket
 from .scene import Scene, choose_fidelity
 from .system import EquilibriumSystem
 from .tension import check_tension
@@ -66,6 +66,9 @@ class Wing(Scene):
         Communicator; all ranks of MPI by default.
     meshing, element
         Replace those of the fidelity.
+    contact
+        Whether the pocket's sides and the ribs press against each other. Without, ``contact`` in
+        the path's table says from where on they pass through each other.
     options_prefix
         Prefix of this scene's PETSc options.
 
@@ -88,6 +91,7 @@ class Wing(Scene):
         meshing: WingMeshing | None = None,
         element: str | None = None,
         options_prefix: str = "wing_",
+        contact: bool = True,
     ) -> None:
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         super().__init__(fidelity, comm)
@@ -109,8 +113,11 @@ class Wing(Scene):
             self.glue = Glue(self.body, self.ribs, geometry)
             blocks += [Block(self.ribs.function), self.glue.block]
             sharing = [self.glue.shared(of=1)]
+        self.pocket = in_pocket(self.body, self.ribs, blocks[1:2]) if self.has_skin else None
+        self.contact = self.pocket if contact else None
+        if self.contact is not None:
+            blocks, sharing = [*blocks, self.contact.block], [*sharing, None]
         self.system = EquilibriumSystem(self.comm, blocks, sharing)
-        self.pocket = Pocket(self.body, self.ribs, geometry) if self.has_skin else None
 
     @property
     def has_skin(self) -> bool:
@@ -188,7 +195,7 @@ class Wing(Scene):
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
-        return [part.iterate for part in self._parts() if part.iterate]
+        return [part.iterate for part in self._parts() if part.iterate is not None]
 
     def _newton(self) -> Newton:
         return Newton(
@@ -230,7 +237,8 @@ class Wing(Scene):
 
     def _parts(self) -> list[Any]:
         """Return what stores energy, in the order of the blocks."""
-        return [part for part in (self.body, self.ribs, self.glue) if part is not None]
+        parts = (self.body, self.ribs, self.glue, self.contact)
+        return [part for part in parts if part is not None]
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()
@@ -260,7 +268,11 @@ class Wing(Scene):
         found |= ribs
         if self.pocket is not None:
             found["gap_mm"] = self.pocket.smallest_gap()
-            found["contact"] = float(found["gap_mm"] < 0.0)
+            touching = float(found["gap_mm"] < 0.0)
+            if self.contact is None:
+                found["contact"] = touching
+            else:
+                found |= {"touching": touching, "contact_force_N": self.contact.total_force()}
         return found
 
     def _trailing_edge(self) -> tuple[float, float]:
