@@ -6,10 +6,10 @@ stationary. With the facet's tangents there and their normal n, out of the body,
 .. math:: g = (x - y) \cdot n - r, \qquad n = \frac{y_{,1} \times y_{,2}}{|y_{,1} \times y_{,2}|},
     \qquad \Pi = \tfrac12 \, \epsilon A \, \langle -g \rangle^2
 
-for a point that stands for an area A of its surface and keeps a distance r from the other (half a
-bar's height, say). xi may be held fixed in the variation, since the distance is stationary in it.
-The potential is the same after a rigid motion of the two, so that the contact forces are in balance,
-their moments too (Wriggers: Computational Contact Mechanics, 2006, chapters 4 and 6).
+for a point that stands for an area A of its surface and keeps a distance r from the other (half
+a bar's height, say). xi may be held fixed in the variation, since the distance is stationary in
+it. The potential is the same after a rigid motion of the two, so that the contact forces are in
+balance, their moments too (Wriggers: Computational Contact Mechanics, 2006, chapters 4 and 6).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Quadrilateral facets in space: their shape functions, and the points on them closest to others.
 
-A facet of degree d has (d + 1)^2 nodes in tensor-product order, first direction fastest, and natural
-coordinates xi in [-1, 1]^2. Its normal ``x_,1 x x_,2`` looks out of the body that it bounds.
+A facet of degree d has (d + 1)^2 nodes in tensor-product order, first direction fastest, and
+natural coordinates xi in [-1, 1]^2. Its normal ``x_,1 x x_,2`` looks out of the body it bounds.
 """
 
 from __future__ import annotations

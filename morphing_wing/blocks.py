@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -54,22 +54,3 @@ class Block:
         """Number of unknowns owned by this rank."""
         return len(self.owned)
 
-
-@dataclass(frozen=True)
-class SharedUnknowns:
-    """How the cells of a shared block stand for dofs of an independent block.
-
-    Attributes
-    ----------
-    of
-        Index of the independent block.
-    masters
-        For each group, the local dofs of that block on the rank that owns them, else empty;
-        list of (k,) arrays.
-    cells
-        For each group the local cells whose k dofs stand for the group's masters.
-    """
-
-    of: int
-    masters: Sequence[np.ndarray]
-    cells: Sequence[np.ndarray]

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import ufl
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from . import compat
 from .forms.contact import contact_energy, contact_gap, penetration
@@ -26,6 +27,12 @@ from .system import EquilibriumSystem
 
 REACH = 3.0
 """Pairs nearer than this (mm) come into the matrix; those nearer than half of it must be there."""
+
+DEEPEST = 0.1
+"""How far (mm) one Newton step may lead a node in, if none is deeper already."""
+
+SMALLEST_PART = 1.0 / 16.0
+"""Part of a Newton step that is taken however deep it leads."""
 
 CLOSE = 1e-4
 """Differences of a gap (mm) that are none."""
@@ -117,7 +124,10 @@ class Contact:
 
         Returns whether the system's matrix is a new one. Collective.
         """
-        return self._take(system, lambda found, gap, _: (gap < 0.5 * REACH) & (found != self._facet))
+        def missing(found: np.ndarray, gap: np.ndarray, _: np.ndarray) -> np.ndarray:
+            return (gap < 0.5 * REACH) & (found != self._facet)
+
+        return self._take(system, missing)
 
     def review(self, system: EquilibriumSystem) -> bool:
         """Find the pairs anew if the present positions show that those in use missed something.
@@ -138,6 +148,39 @@ class Contact:
             self._facet = np.where(gap < REACH, found, -1)
             self._renumber(system)
         return changed
+
+    def admissible(self, system: EquilibriumSystem, x: PETSc.Vec, step: PETSc.Vec) -> float:
+        """Return which part of a Newton step, from x to x - step, to take. Collective.
+
+        What is thrown far through another wall would come back by chance.
+        """
+        system.pull(x)
+        limit, part, moved = max(DEEPEST, self.penetration()), 1.0, x.duplicate()
+        while part > SMALLEST_PART:
+            moved.waxpy(-part, step, x)
+            system.pull(moved)
+            if self.penetration() <= limit:
+                break
+            part /= 2.0
+        system.pull(x)
+        moved.destroy()
+        return part
+
+    def penetration(self) -> float:
+        """Return how deep in mm the deepest node of the present pairs is in. Collective."""
+        used = self._weights > 0.0
+        points = self._X[used] + self._points.values()[used, :3]
+        depth = self._kept[used] - gaps(self._opposed()[used], points, self._xi[used])
+        return float(self._comm.allreduce(depth.max(initial=0.0), op=MPI.MAX))
+
+    def memory(self) -> list[int]:
+        """Return which facet opposes each node: what a next step inherits beside positions."""
+        return self._facet.tolist()
+
+    def recall(self, system: EquilibriumSystem, facets: Sequence[int]) -> None:
+        """Take over what `memory` returned, also in an earlier run. Collective."""
+        self._facet = np.array(facets, dtype=int)
+        self._renumber(system)
 
     def total_force(self) -> float:
         """Return the sum of the contact forces' magnitudes in N. Collective."""
@@ -180,10 +223,6 @@ class Contact:
         rows = np.concatenate(table)[self._mine]
         self._place(self._facet[self._mine] >= 0)
         system.renumber(self.block, self._points.as_dofs(rows, fill=-1))
-        x = system.x.duplicate()
-        system.push(x)
-        system.pull(x)
-        x.destroy()
         self.iterate.accept()
 
     # -- what the energy is given -------------------------------------------------------------
@@ -206,15 +245,19 @@ class Contact:
 
     def _refresh(self) -> None:
         """Move the places to where the distance is stationary at the present unknowns."""
-        used, q = self._used, self._points.values()
-        points = self._X[used] + q[used, :3]
-        facets = self._Y[used] + q[used, 3:].reshape(self._Y[used].shape)
-        self._xi[used] = project(facets, points, self._xi[used])
+        used = self._used
+        points = self._X[used] + self._points.values()[used, :3]
+        self._xi[used] = project(self._opposed()[used], points, self._xi[used])
         shapes = shape_functions(self._degree, self._xi)
         place, first, second = (np.einsum("na,nai->ni", N, self._Y) for N in shapes)
         self._points.set_data(np.concatenate(
             [*shapes, self._X, place, first, second, self._kept[:, None],
              self._weights[:, None]], axis=1))
+
+
+    def _opposed(self) -> np.ndarray:
+        """Return the deformed nodes of each pair's facet, (n_pairs, facet nodes, 3)."""
+        return self._Y + self._points.values()[:, 3:].reshape(self._Y.shape)
 
 
 def _kinematics(q: Any, data: Any, n: int) -> tuple[Any, Any, Any, Any]:

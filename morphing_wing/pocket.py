@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from .blocks import Block
@@ -16,22 +14,22 @@ STIFFNESS = 20.0
 """Contact pressure per penetration, N/mm^3."""
 
 
-def in_pocket(body: Elastomer, ribs: BeamFrame | None, rib_blocks: Sequence[Block]) -> Contact:
+def in_pocket(body: Elastomer, ribs: BeamFrame | None, rib_block: Block | None) -> Contact:
     """Return the contact of the upper skin with the lower one, and of the ribs with both.
 
     Parameters
     ----------
     body
         Elastomer with faces ``pocket_upper`` and ``pocket_lower``.
-    ribs, rib_blocks
-        The frame, or None, and its block.
+    ribs, rib_block
+        The frame and its block, or None.
     """
     upper, lower = (Surface(body, body.grid.facets[f]) for f in ("pocket_upper", "pocket_lower"))
     shared = np.isin(upper.names, lower.names)
     sides = [Opposed(upper.nodes, lower, np.where(shared, 0.0, upper.area),
                      np.zeros(len(upper.area)))]
     if ribs is not None:
-        bars = Bars(ribs, rib_blocks[0])
+        bars = Bars(ribs, rib_block)
         area = 2.0 * bars.radius * bars.length
         sides += [Opposed(bars.nodes, side, area, bars.radius) for side in (lower, upper)]
     return Contact(body.comm, sides, STIFFNESS)

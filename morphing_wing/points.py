@@ -1,8 +1,8 @@
 """A mesh of points: unknowns of others come together where no cell holds them all.
 
 Each point is a cell of length one with a few numbers of its own. They stand for unknowns of other
-functions: those of a node and of the facet that it touches, say. An energy of these numbers is plain
-UFL, and its derivatives are compiled like all others.
+functions: those of a node and of the facet that it touches, say. An energy of these numbers is
+plain UFL, and its derivatives are compiled like all others.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Restart", "read", "restart_file", "write"]
 
-_FORMAT = 2
+_FORMAT = 3
 _ROW = [f.name for f in dataclasses.fields(State) if f.name not in ("fields", "scene")]
 
 
@@ -50,7 +50,7 @@ class Restart:
 
     states: list[State]
     standing: Standing
-    memory: dict[str, float]
+    memory: dict[str, Any]
     seconds: float
 
     def check(self, targets: Sequence[Load]) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from . import compat
 from . import restart as restart_files
@@ -24,7 +25,6 @@ from .path import Path, State
 from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
 from .targets import load_targets
-
 
 MOST_ROUNDS = 6
 """Solves of one load step between which the pairs in contact may change."""
@@ -171,6 +171,10 @@ class Scene(ABC):
         for iterate in self._iterates():
             iterate.accept()
 
+    def admissible(self, x: PETSc.Vec, step: PETSc.Vec) -> float:
+        """Return which part of a Newton step, from x to x - step, to take."""
+        return 1.0 if self.contact is None else self.contact.admissible(self.system, x, step)
+
     def before_tangent(self, iteration: int) -> None:
         """Tell all iterates that a tangent is about to be assembled."""
         for iterate in self._iterates():
@@ -202,16 +206,23 @@ class Scene(ABC):
         """Copy a state's fields into the functions."""
         for block in self.kept_blocks:
             block.function.x.array[:] = state.fields[block.function.name]
+        self.system.share()
 
     # -- for restarts -------------------------------------------------------------------------
 
-    def memory(self) -> dict[str, float]:
+    def memory(self) -> dict[str, Any]:
         """Return what a next step inherits beside loads and unknowns; the same on all ranks."""
-        own = {"external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+        own: dict[str, Any] = {
+            "external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+        if self.contact is not None:
+            own["facet_of_node"] = self.contact.memory()
         return own | self.newton.factor.memory()
 
-    def recall(self, memory: Mapping[str, float]) -> None:
+    def recall(self, memory: Mapping[str, Any]) -> None:
         """Take over what `memory` returned, also in an earlier run."""
+        if self.contact is not None:
+            self.contact.recall(self.system, memory["facet_of_node"])
+            self.newton.renew()
         self._work = memory["external_work_Nmm"]
         self._largest_force = memory["largest_force_N"]
         self.newton.factor.recall(memory)

@@ -42,10 +42,8 @@ class Nodes:
 
     @cached_property
     def numbers(self) -> np.ndarray:
-        """The system's numbers of their displacements, shape (n, 3); -1 where held. Collective."""
-        numbers = self._block.numbers.copy()
-        numbers[self._block.constrained] = -1
-        return self._gathered(numbers[self._mine])[self._order]
+        """The system's numbers of their displacements, shape (n, 3). Collective."""
+        return self._gathered(self._block.numbers[self._mine])[self._order]
 
     def displacements(self) -> np.ndarray:
         """Return the present displacements, shape (n, 3), mm. Collective."""
@@ -116,8 +114,8 @@ class Bars:
     ----------
     nodes
         The nodes.
-    length : (n,) array
-        Each node's share of the bars' length, mm.
+    length
+        The mean share of the bars' length that a node has, mm.
     radius : (n,) array
         Half the height of the thickest bar at it, mm.
     """
@@ -128,29 +126,20 @@ class Bars:
         space = ribs.function.function_space
         index_map = space.dofmap.index_map
         n_owned = ribs.mesh.topology.index_map(1).size_local
-        rows, shares, radii = [], [], []
-        x = space.tabulate_dof_coordinates()
-        for cell, bar in enumerate(ribs.bars[:n_owned]):
-            if not np.isnan(radius[bar]):
-                nodes = space.dofmap.cell_dofs(cell)
-                middle = np.linalg.norm(x[nodes] - x[nodes].mean(axis=0), axis=1).argmin()
-                rows.append(index_map.local_to_global(nodes.astype(np.int32)))
-                part = np.full(3, 1.0 / 6.0)
-                part[middle] = 2.0 / 3.0
-                shares.append(part * lengths[bar])
-                radii.append(np.full(3, radius[bar]))
-        found = [np.concatenate(part) if part else np.empty(0) for part in (rows, shares, radii)]
-        parts = ribs.comm.allgather(found)
-        names, shares, radii = (np.concatenate([part[i] for part in parts]) for i in range(3))
-        names = names.astype(np.int64)
+        chosen = [cell for cell, bar in enumerate(ribs.bars[:n_owned]) if not np.isnan(radius[bar])]
+        nodes = np.array([space.dofmap.cell_dofs(cell) for cell in chosen], dtype=np.int32)
+        names = index_map.local_to_global(nodes.ravel())
+        radii = np.repeat(radius[ribs.bars[chosen]], 3)
+        names, radii = (np.concatenate(part) for part in zip(
+            *ribs.comm.allgather((names, radii)), strict=True))
         lower, upper = index_map.local_range
         mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
         six = np.arange(len(ribs.function.x.array)).reshape(-1, 6)
         self.nodes = Nodes(ribs.comm, space, block, six[:, :3], mine)
-        at = self.nodes.index_of(names)
-        self.length, self.radius = (np.zeros(len(self.nodes.reference)) for _ in range(2))
-        np.add.at(self.length, at, shares)
-        np.maximum.at(self.radius, at, radii)
+        n = len(self.nodes.reference)
+        self.length = float(lengths[~np.isnan(radius)].sum()) / n
+        self.radius = np.zeros(n)
+        np.maximum.at(self.radius, self.nodes.index_of(names), radii)
 
 
 def _outward(

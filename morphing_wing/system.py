@@ -1,9 +1,9 @@
 """One set of equations from several finite-element functions and their energies.
 
 Every unknown has one number in one PETSc vector. A block maps its function's rank-local dofs to
-those numbers: one to one for an independent field, many to one for a *shared* block, whose cell
-dofs all stand for the same few unknowns (the six of a glued rib end, say). Energies then couple
-fields by plain UFL: residual and tangent are their derivatives, and the map adds them up.
+those numbers: one to one for an independent field, many to one for a *local* block, whose dofs
+stand for unknowns of others (those of a face and of the rib's end glued to it, say). Energies then
+couple fields by plain UFL: residual and tangent are their derivatives, and the map adds them up.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from petsc4py import PETSc
 from scipy.sparse import coo_matrix, csr_matrix
 
 from . import compat
-from .blocks import Block, SharedUnknowns
+from .blocks import Block
 
 
 class EquilibriumSystem:
@@ -29,24 +29,18 @@ class EquilibriumSystem:
     comm
         Communicator of all meshes.
     blocks
-        Independent blocks first, then shared ones.
-    sharing
-        For each shared block, in order, what it stands for; None: for nothing, see `renumber`.
+        Independent blocks first, then local ones, which stand for nothing until `renumber`.
     """
 
-    def __init__(
-        self, comm: MPI.Comm, blocks: Sequence[Block],
-        sharing: Sequence[SharedUnknowns | None] = (),
-    ) -> None:
+    def __init__(self, comm: MPI.Comm, blocks: Sequence[Block]) -> None:
         self.comm = comm
         self.blocks = list(blocks)
-        self._n_independent = len(blocks) - len(sharing)
+        self._n_independent = sum(not block.local for block in blocks)
         self._number_independent()
-        for block, shared in zip(self.blocks[self._n_independent :], sharing, strict=True):
+        for block in self.blocks[self._n_independent :]:
             block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
-            if shared is not None:
-                self._number_shared(block, shared)
         self.n_owned = sum(block.n_owned for block in self.blocks[: self._n_independent])
+        self._find_held()
         self.x = PETSc.Vec().createMPI((self.n_owned, None), comm=comm)
         self._lay_out()
         self._build_scatter()
@@ -89,12 +83,12 @@ class EquilibriumSystem:
             self._matrix = self._create_matrix()
 
     def renumber(self, block: Block, numbers: np.ndarray) -> None:
-        """Let a shared block's dofs stand for other unknowns. Collective; the matrix is a new one.
+        """Let a local block's dofs stand for other unknowns. Collective; the matrix is a new one.
 
         Parameters
         ----------
         block
-            One of those that stood for nothing at first.
+            The block; its function then holds the present values of those unknowns.
         numbers
             Global number of each local dof, -1 for one that stands for nothing.
         """
@@ -108,6 +102,14 @@ class EquilibriumSystem:
         self._matrix = None
         if self._tangents:
             self._matrix = self._create_matrix()
+        self.share()
+
+    def share(self) -> None:
+        """Hand the independent blocks' values on to the local ones. Collective."""
+        x = self.x.duplicate()
+        self.push(x)
+        self.pull(x)
+        x.destroy()
 
     @property
     def matrix(self) -> PETSc.Mat:
@@ -126,7 +128,7 @@ class EquilibriumSystem:
         """Copy unknowns from the vector into all functions, ghosts included."""
         self._scatter.scatter(x, self._local, addv=False, mode=PETSc.ScatterMode.FORWARD)
         values = self._local.getArray(readonly=True)
-        for block, (positions, source) in zip(self.blocks, self._sources, strict=True):
+        for block, (positions, source) in zip(self.blocks, self._pulled, strict=True):
             block.function.x.array[positions] = values[source]
             if block.refresh is not None:
                 block.refresh()
@@ -143,7 +145,7 @@ class EquilibriumSystem:
         """Add rank-local arrays of the blocks (None: nothing) into a zeroed vector."""
         self._local.set(0.0)
         values = self._local.getArray()
-        for array, (positions, source) in zip(local, self._sources, strict=True):
+        for array, (positions, source) in zip(local, self._added, strict=True):
             if array is not None:
                 np.add.at(values, source, array[positions])
         out.set(0.0)
@@ -199,22 +201,16 @@ class EquilibriumSystem:
             block.function.x.array[:] = values
             start += block.n_owned
 
-    def _number_shared(self, block: Block, shared: SharedUnknowns) -> None:
-        source = self.blocks[shared.of]
-        free = self._free(source)
-        dofmap = block.function.function_space.dofmap
-        for masters, cells in zip(shared.masters, shared.cells, strict=True):
-            found = self.comm.allgather(free[masters] if len(masters) else np.empty(0, np.int64))
-            numbers = next(numbers for numbers in found if len(numbers))
-            for cell in cells:
-                for point, dof in enumerate(dofmap.cell_dofs(cell)):
-                    first = dof * block.block_size
-                    part = numbers[point * block.block_size :][: block.block_size]
-                    block.numbers[first : first + block.block_size] = part
+    def _find_held(self) -> None:
+        """Find the unknowns that are held: this rank's, and all ranks'."""
+        owned = np.arange(self._first, self._first + self.n_owned)
+        free = [self._free(block) for block in self.blocks[: self._n_independent]]
+        self._constrained_rows = np.setdiff1d(owned, np.concatenate(free)).astype(PETSc.IntType)
+        self._held = np.concatenate(self.comm.allgather(self._constrained_rows))
 
     def _free(self, block: Block) -> np.ndarray:
         numbers = block.numbers.copy()
-        numbers[block.constrained] = -1
+        numbers[np.isin(numbers, self._held) if block.local else block.constrained] = -1
         return numbers
 
     def _lay_out(self) -> None:
@@ -224,7 +220,10 @@ class EquilibriumSystem:
         self._free_numbers = np.concatenate([self._free(block) for block in self.blocks])
 
     def _build_scatter(self) -> None:
-        wanted = np.unique(self._free_numbers[self._free_numbers >= 0]).astype(PETSc.IntType)
+        # Local blocks are told of what is held; their energies do no work on it.
+        seen = [block.numbers if block.local else self._free(block) for block in self.blocks]
+        wanted = np.unique(np.concatenate(seen))
+        wanted = wanted[wanted >= 0].astype(PETSc.IntType)
         self._local = PETSc.Vec().createSeq(len(wanted))
         self._scatter = PETSc.Scatter().create(
             self.x,
@@ -232,16 +231,10 @@ class EquilibriumSystem:
             self._local,
             PETSc.IS().createStride(len(wanted), 0, 1, comm=MPI.COMM_SELF),
         )
-        self._sources = []
-        for start, end in self._spans:
-            numbers = self._free_numbers[start:end]
-            positions = np.nonzero(numbers >= 0)[0]
-            self._sources.append((positions, np.searchsorted(wanted, numbers[positions])))
-        owned = np.arange(self._first, self._first + self.n_owned)
-        self._constrained_rows = np.setdiff1d(
-            owned,
-            np.concatenate([self._free(b) for b in self.blocks[: self._n_independent]]),
-        ).astype(PETSc.IntType)
+        free = [self._free_numbers[start:end] for start, end in self._spans]
+        self._pulled, self._added = (
+            [(np.flatnonzero(part >= 0), np.searchsorted(wanted, part[part >= 0]))
+             for part in parts] for parts in (seen, free))
 
     # -- the matrix ---------------------------------------------------------------------------
 
@@ -270,19 +263,15 @@ class EquilibriumSystem:
         return PETSc.IS().createStride(end - start, start, 1, comm=MPI.COMM_SELF)
 
     def _pattern(self) -> csr_matrix:
-        """Return this rank's rows of the pattern; what never changes is found once."""
-        changing = [block.local for block in self.blocks]
+        """Return this rank's rows of the pattern; that of the independent blocks is found once."""
+        coupled = [max(i, j) >= self._n_independent for i, j, _ in self._tangents]
         if self._lasting_pattern is None:
             owned = np.arange(self._first, self._first + self.n_owned)
-            found = [(owned, owned)]
-            for i, j, form in self._tangents:
-                if max(i, j) < self._n_independent:
-                    found.append(self._independent_pattern(i, j, form))
-                elif not (changing[i] or changing[j]):
-                    found.append(self._shared_pattern(i, j))
-            self._lasting_pattern = self._as_rows(found)
-        found = [self._shared_pattern(i, j) for i, j, _ in self._tangents
-                 if changing[i] or changing[j]]
+            found = [self._independent_pattern(*tangent)
+                     for tangent, is_so in zip(self._tangents, coupled, strict=True) if not is_so]
+            self._lasting_pattern = self._as_rows([(owned, owned), *found])
+        found = [self._local_pattern(i, j) for (i, j, _), is_so in
+                 zip(self._tangents, coupled, strict=True) if is_so]
         csr = self._lasting_pattern + self._as_rows(found) if found else self._lasting_pattern
         csr.sort_indices()
         return csr
@@ -314,13 +303,13 @@ class EquilibriumSystem:
         """Return the system's number of each dof of a block, in its own global numbering."""
         return np.concatenate(self.comm.allgather(self._of_rows(b)))
 
-    def _shared_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
-        left, right = (self._cell_numbers(self.blocks[b]) for b in (i, j))
-        shared = left if i >= self._n_independent else right
-        used = (shared >= 0).any(axis=1)
-        shape = (used.sum(), left.shape[1], right.shape[1])
-        row = np.broadcast_to(left[used][:, :, None], shape).ravel()
-        column = np.broadcast_to(right[used][:, None, :], shape).ravel()
+    def _local_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
+        assert i == j, "energies couple a local block to others by its unknowns alone"
+        numbers = self._cell_numbers(self.blocks[i])
+        numbers = numbers[(numbers >= 0).any(axis=1)]
+        shape = (*numbers.shape, numbers.shape[1])
+        row = np.broadcast_to(numbers[:, :, None], shape).ravel()
+        column = np.broadcast_to(numbers[:, None, :], shape).ravel()
         present = (row >= 0) & (column >= 0)
         pairs = np.unique(np.stack([row[present], column[present]]), axis=1)
         row, column = np.concatenate(self.comm.allgather(pairs), axis=1)
