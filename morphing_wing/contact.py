@@ -28,6 +28,9 @@ from .system import EquilibriumSystem
 REACH = 3.0
 """Pairs nearer than this (mm) come into the matrix; those nearer than half of it must be there."""
 
+BY_DESIGN = 0.3
+"""What is nearer than this (mm) in the undeformed structure is not in contact, but joined."""
+
 DEEPEST = 0.1
 """How far (mm) one Newton step may lead a node in, if none is deeper already."""
 
@@ -68,8 +71,8 @@ class Contact:
     comm
         Communicator.
     sides
-        What is opposed to what. Nodes that belong to the surface, or lie in it, when nothing is
-        deformed are left out; those nearer than their radius keep the distance that they have.
+        What is opposed to what. Nodes nearer than `BY_DESIGN` when nothing is deformed are left
+        out: there the two are one, or glued.
     stiffness
         Pressure per penetration, N/mm^3.
 
@@ -87,9 +90,9 @@ class Contact:
         self._comm, self._sides = comm, list(sides)
         facet_size = self._sides[0].surface.facets.shape[1]
         self._degree = 1 if facet_size == 4 else 2
-        self._keep = [self._distances(side) for side in self._sides]
-        self._weight = [stiffness * np.where(np.isnan(keep), 0.0, side.area)
-                        for side, keep in zip(self._sides, self._keep, strict=True)]
+        self._apart = [self._are_apart(side) for side in self._sides]
+        self._weight = [stiffness * np.where(apart, side.area, 0.0)
+                        for side, apart in zip(self._sides, self._apart, strict=True)]
         n = sum(len(side.area) for side in self._sides)
         bounds = np.linspace(0, n, comm.size + 1).astype(int)
         self._mine = slice(bounds[comm.rank], bounds[comm.rank + 1])
@@ -170,7 +173,7 @@ class Contact:
         """Return how deep in mm the deepest node of the present pairs is in. Collective."""
         used = self._weights > 0.0
         points = self._X[used] + self._points.values()[used, :3]
-        depth = self._kept[used] - gaps(self._opposed()[used], points, self._xi[used])
+        depth = self._radius[used] - gaps(self._opposed()[used], points, self._xi[used])
         return float(self._comm.allreduce(depth.max(initial=0.0), op=MPI.MAX))
 
     def memory(self) -> list[int]:
@@ -186,17 +189,15 @@ class Contact:
         """Return the sum of the contact forces' magnitudes in N. Collective."""
         return compat.assemble_scalar(self._comm, compat.form(self._force))
 
-    def _distances(self, side: Opposed) -> np.ndarray:
-        """Return the distance that each node keeps, NaN for those left out."""
+    def _are_apart(self, side: Opposed) -> np.ndarray:
+        """Return which nodes are not joined to the surface."""
         at = closest(side.nodes.reference, side.surface.nodes.reference, side.surface.facets)
-        keep = np.minimum(side.radius, at.gap)
-        keep[(np.abs(at.gap) < 1e-6) | (side.area == 0.0)] = np.nan
-        return keep
+        return (at.gap - side.radius > BY_DESIGN) & (side.area > 0.0)
 
     def _found(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Return of each side the nodes' facets (-1: none), gaps, and gaps to the facets in use."""
         result, start = [], 0
-        for side, keep in zip(self._sides, self._keep, strict=True):
+        for side, apart in zip(self._sides, self._apart, strict=True):
             points, nodes = side.nodes.positions(), side.surface.nodes.positions()
             at = closest(points, nodes, side.surface.facets)
             facet = self._facet[start : start + len(points)]
@@ -204,7 +205,7 @@ class Contact:
             paired = np.flatnonzero((facet >= 0) & (facet != at.facet))
             opposed = nodes[side.surface.facets[facet[paired]]]
             held[paired] = gaps(opposed, points[paired], project(opposed, points[paired]))
-            result.append((at.facet, *(np.where(np.isnan(keep), np.inf, gap - keep)
+            result.append((at.facet, *(np.where(apart, gap - side.radius, np.inf)
                                        for gap in (at.gap, held))))
             start += len(points)
         return result
@@ -229,17 +230,17 @@ class Contact:
 
     def _place(self, used: np.ndarray) -> None:
         """Set the reference positions of this rank's pairs, and their weights."""
-        nodes, facets, keep, weight = [], [], [], []
+        nodes, facets, weight = [], [], []
         start = 0
-        for side, kept, stiffness in zip(self._sides, self._keep, self._weight, strict=True):
+        for side, stiffness in zip(self._sides, self._weight, strict=True):
             facet = self._facet[start : start + len(side.area)]
             nodes.append(side.nodes.reference)
             facets.append(side.surface.nodes.reference[side.surface.facets[facet]])
-            keep.append(np.nan_to_num(kept))
             weight.append(np.where(facet >= 0, stiffness, 0.0))
             start += len(side.area)
-        self._X, self._Y, self._kept, self._weights = (
-            np.concatenate(part)[self._mine] for part in (nodes, facets, keep, weight))
+        radius = [side.radius for side in self._sides]
+        self._X, self._Y, self._radius, self._weights = (
+            np.concatenate(part)[self._mine] for part in (nodes, facets, radius, weight))
         self._used, self._xi = used, np.zeros((self._count, 2))
         self._refresh()
 
@@ -251,7 +252,7 @@ class Contact:
         shapes = shape_functions(self._degree, self._xi)
         place, first, second = (np.einsum("na,nai->ni", N, self._Y) for N in shapes)
         self._points.set_data(np.concatenate(
-            [*shapes, self._X, place, first, second, self._kept[:, None],
+            [*shapes, self._X, place, first, second, self._radius[:, None],
              self._weights[:, None]], axis=1))
 
 

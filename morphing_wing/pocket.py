@@ -25,9 +25,7 @@ def in_pocket(body: Elastomer, ribs: BeamFrame | None, rib_block: Block | None) 
         The frame and its block, or None.
     """
     upper, lower = (Surface(body, body.grid.facets[f]) for f in ("pocket_upper", "pocket_lower"))
-    shared = np.isin(upper.names, lower.names)
-    sides = [Opposed(upper.nodes, lower, np.where(shared, 0.0, upper.area),
-                     np.zeros(len(upper.area)))]
+    sides = [Opposed(upper.nodes, lower, upper.area, np.zeros(len(upper.area)))]
     if ribs is not None:
         bars = Bars(ribs, rib_block)
         area = 2.0 * bars.radius * bars.length

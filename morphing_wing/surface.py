@@ -72,8 +72,6 @@ class Surface:
         Rows of ``nodes``, in tensor-product order, normal out of the body.
     area : (n,) array
         Each node's share of the area, mm^2.
-    names : (n,) array
-        Global numbers of the nodes in the body's displacement space.
     """
 
     def __init__(self, body: Elastomer, pairs: np.ndarray) -> None:
@@ -103,8 +101,6 @@ class Surface:
         self.nodes = Nodes(body.comm, space, body.block, dofs.reshape(-1, 3), mine)
         self.facets = self.nodes.index_of(names)
         self.area = node_areas(self.nodes.reference, self.facets)
-        self.names = np.empty(len(self.area), dtype=names.dtype)
-        self.names[self.facets] = names
 
 
 class Bars:

@@ -15,9 +15,9 @@ NO_SKIN = {"skin_thickness": None}
 SPAR = NO_RIBS | NO_SKIN
 
 
-def small_wing(comm, element="Q1 enhanced", geometry=GEOMETRY):
+def small_wing(comm, element="Q1 enhanced", geometry=GEOMETRY, **options):
     """Return the wing with all its parts on a communicator."""
-    return Wing(geometry, meshing=MESHING, element=element, comm=comm)
+    return Wing(geometry, meshing=MESHING, element=element, comm=comm, **options)
 
 
 def move_elastomer(scene, motion):
@@ -27,9 +27,10 @@ def move_elastomer(scene, motion):
     part.interpolate(lambda x: motion(x.T).T)
 
 
-def wing(**changes):
+def wing(contact=True, adhesive=None, **changes):
     """Return the wing with changes of its geometry, on this rank alone."""
-    return small_wing(MPI.COMM_SELF, geometry=replace(GEOMETRY, **changes))
+    return small_wing(MPI.COMM_SELF, geometry=replace(GEOMETRY, **changes), contact=contact,
+                      adhesive=adhesive)
 
 
 def actuated(scene, **loads):
