@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import lsq_linear
 
 from .path import State
 from .sensitivity import sensitivities
@@ -16,7 +15,7 @@ from .steering import Steering
 if TYPE_CHECKING:
     from .scene import Scene
 
-__all__ = ["ANGLES", "Aim", "errors"]
+__all__ = ["ANGLES", "Aim"]
 
 ANGLES = ("span_angle_deg", "chord_angle_deg")
 
@@ -50,7 +49,9 @@ class Aim:
         """Return the aim from the scene's present state. Collective."""
         numbers = np.array([s.number(state.load) for s in steerings])
         active = [s.active(n)[0] for s, n in zip(steerings, numbers, strict=True)]
-        return cls(state, steerings, numbers, errors(scene, steerings, state),
+        errors = np.array([s.wanted - state.measures[s.angle] for s in steerings])
+        # The same bits on all ranks, which all take the same way then.
+        return cls(state, steerings, numbers, scene.comm.bcast(errors),
                    sensitivities(scene, active))
 
     @property
@@ -63,29 +64,48 @@ class Aim:
         """The norm of the errors in degrees."""
         return float(np.linalg.norm(self.errors))
 
-    def change(self, radius: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return the best change of the numbers, and of the angles in degrees by it."""
+    @property
+    def merit(self) -> float:
+        """The norm in degrees of those errors that no limit of their own load excuses."""
+        return float(np.linalg.norm(self._open(self.errors, self.numbers)))
+
+    def change(self, radius: float) -> tuple[np.ndarray, float]:
+        """Return a change of the numbers, and the merit that it promises.
+
+        Each angle changes by ``radius`` degrees at most. A load that meets its limit stays there
+        and its angle is given up: the others are still met, and not traded for it.
+        """
+        change = np.zeros_like(self.numbers)
         slopes = self._slopes()
         if not np.isfinite(slopes).all():
-            return np.zeros_like(self.numbers), np.zeros_like(self.errors)
-        lowest, limit = (np.array([getattr(s, n) for s in self.steerings])
-                         for n in ("lowest", "limit"))
+            return change, self.merit
+        lowest, highest = self._limits()
         # Where an angle saturates, a small change of it takes a large one of the load.
-        longest = np.maximum(np.abs(self.numbers), 0.25 * limit)
-        bounds = (np.maximum(lowest - self.numbers, -longest),
-                  np.minimum(limit - self.numbers, longest))
-        aim = self.errors * min(1.0, radius / self.distance)
-        # In parts of the limits: MPa and N differ by orders of magnitude.
-        found = lsq_linear(slopes * limit, aim, (bounds[0] / limit, bounds[1] / limit), "bvls")
-        change = np.clip(found.x * limit, *bounds)
-        return change, slopes @ change
+        longest = np.maximum(np.abs(self.numbers), 0.25 * highest)
+        low = np.maximum(lowest - self.numbers, -longest)
+        high = np.minimum(highest - self.numbers, longest)
+        aimed = np.clip(self.errors, -radius, radius)
+        free = np.ones(len(change), dtype=bool)
+        while free.any():
+            left = aimed[free] - slopes[np.ix_(free, ~free)] @ change[~free]
+            change[free] = np.linalg.lstsq(slopes[np.ix_(free, free)], left, rcond=None)[0]
+            inside = np.clip(change, low, high)
+            beyond = np.where(free, np.abs(change - inside) / highest, 0.0)
+            worst = int(np.argmax(beyond))
+            if beyond[worst] == 0.0:
+                break
+            change[worst], free[worst] = inside[worst], False
+        promised = self._open(self.errors - slopes @ change, self.numbers + change)
+        return change, float(np.linalg.norm(promised))
 
     def held(self) -> str:
         """Return in words what keeps the angles from coming nearer."""
         if not np.isfinite(self._slopes()).all():
             return "the tangent could not be factorised"
-        limits = [s.at_limit(n) for s, n in zip(self.steerings, self.numbers, strict=True)]
-        return " and ".join(filter(None, limits)) or "no change of the loads brings it nearer"
+        excused = self._open(self.errors, self.numbers) != self.errors
+        limits = [s.at_limit(number) for s, number, there in
+                  zip(self.steerings, self.numbers, excused, strict=True) if there]
+        return " and ".join(limits) or "no change of the loads brings it nearer"
 
     def words(self) -> str:
         """Return the angles beside the wanted ones."""
@@ -107,7 +127,15 @@ class Aim:
         return np.array([[sign * self.rates[load][s.angle] for load, sign in active]
                          for s in self.steerings])
 
+    def _limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return (np.array([s.lowest for s in self.steerings]),
+                np.array([s.limit for s in self.steerings]))
 
-def errors(scene: Scene, steerings: Sequence[Steering], state: State) -> np.ndarray:
-    """Return wanted minus present angles in degrees, the same bits on all ranks."""
-    return scene.comm.bcast(np.array([s.wanted - state.measures[s.angle] for s in steerings]))
+    def _open(self, errors: np.ndarray, numbers: np.ndarray) -> np.ndarray:
+        """Return the errors, zero where only a load beyond its limit would make them smaller."""
+        lowest, highest = self._limits()
+        more = errors * np.sign(np.diag(self._slopes()))
+        near = 1e-9 * highest
+        excused = ((numbers >= highest - near) & (more > 0.0)) | (
+            (numbers <= lowest + near) & (more < 0.0))
+        return np.where(excused, 0.0, errors)

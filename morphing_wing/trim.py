@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .aim import ANGLES, Aim, errors
+from .aim import ANGLES, Aim
 from .path import Path, State
 from .steering import Steering
 from .way import Way
@@ -97,11 +97,20 @@ def trim(
     idle = dict(way.states[-1].load)
     search = _Search(scene, steerings, idle, way, tolerance, max_iterations)
     first = np.array([s.number(idle) for s in steerings])
-    cause = search.run(first)
-    if search.nearest.error > tolerance and first.any():
+    nearest, cause = search.run(first)
+    if cause and first.any() and search.tried < max_iterations:
         # Far out angles fall again with the load, and the way back looks like the way on.
-        cause = search.run(np.zeros_like(first))
-    nearest = search.stand_nearest()
+        again, other = search.run(np.zeros_like(first))
+        nearest, cause = min((nearest, cause), (again, other), key=lambda end: end[0].distance)
+    end = nearest.state
+    if cause and len(steerings) > 1:
+        # What cannot be met is given up where it is, so that the other angle still can be.
+        worst = int(np.argmax(np.abs(nearest.errors)))
+        search.idle, search.steerings = end.load, [*steerings[:worst], *steerings[worst + 1 :]]
+        end = search.run(np.delete(nearest.numbers, worst))[0].state
+    if end is not nearest.state or end is not way.states[-1]:
+        way.lead(end.load)
+        nearest = Aim.of(scene, steerings, way.states[-1])
     converged = nearest.error <= tolerance
     reason = "the wanted angles were reached" if converged else f"{nearest.words()}: {cause}"
     return Trim(
@@ -117,7 +126,7 @@ def trim(
 
 @dataclasses.dataclass(eq=False)
 class _Search:
-    """Newton's method with a trust region; it remembers the nearest state of all its runs."""
+    """Newton's method with a trust region in the angles."""
 
     scene: Scene
     steerings: Sequence[Steering]
@@ -125,47 +134,36 @@ class _Search:
     way: Way
     tolerance: float
     max_iterations: int
-    nearest: Aim | None = None
     tried: int = 0
 
-    def run(self, numbers: np.ndarray) -> str:
-        """Search from some loads on; return why it ended, empty if the angles were reached."""
-        if not self._lead(numbers) and self.nearest is not None:
-            return self.way.reason
-        here, radius, slow, failed = self._aim(), FIRST_RADIUS, 0, 0
-        while True:
-            self._remember(here)
-            if here.error <= self.tolerance:
-                return ""
-            change, aimed = here.change(radius)
-            promised = here.distance - float(np.linalg.norm(here.errors - aimed))
-            if not promised > 1e-3 * min(here.distance, radius):
-                return here.held()
+    def run(self, numbers: np.ndarray) -> tuple[Aim, str]:
+        """Search from some loads on; return the best aim and why it ended, empty if it is met."""
+        led = self._lead(numbers)
+        here, radius, slow, failed = self._aim(), FIRST_RADIUS, 0, 0 if led else 2
+        while here.error > self.tolerance:
+            change, promised = here.change(radius)
+            least = max(1e-3 * min(here.merit, radius), 0.1 * self.tolerance)
+            if here.merit <= self.tolerance or here.merit - promised <= least:
+                return here, here.held()
             if failed == 2:
-                return self.way.reason
+                return here, self.way.reason
             if slow == 4:
-                return "no change of the loads brings it nearer"
+                return here, "no change of the loads brings it nearer"
             if self.tried == self.max_iterations:
-                return f"max_iterations = {self.max_iterations} are used up"
+                return here, f"max_iterations = {self.max_iterations} are used up"
             self.tried += 1
             led = self._lead(here.numbers + change)
-            there = errors(self.scene, self.steerings, self.way.states[-1])
-            gained = here.distance - float(np.linalg.norm(there))
-            slow = slow + 1 if gained < 1e-3 * here.distance else 0
+            there = self._aim()
+            kept = (here.merit - there.merit) / (here.merit - promised)
+            slow = slow + 1 if here.merit - there.merit < 1e-3 * here.merit else 0
             failed += not led
-            if not led or gained < 0.25 * promised:
-                radius = 0.25 * float(np.linalg.norm(aimed))
-            elif gained > 0.75 * promised:
+            if not led or kept < 0.25:
+                radius = 0.25 * min(radius, here.error)
+            elif kept > 0.75:
                 radius = min(2.0 * radius, LARGEST_RADIUS)
-            if gained > 0.0:
-                here = self._aim()
-
-    def stand_nearest(self) -> Aim:
-        """Lead the scene to the nearest state and return the aim from there."""
-        if self.way.states[-1] is not self.nearest.state:
-            self.way.lead(self.nearest.state.load)
-            self.nearest = self._aim()
-        return self.nearest
+            if kept > 0.0:
+                here = there
+        return here, ""
 
     def _lead(self, numbers: np.ndarray) -> bool:
         load = dict(self.idle)
@@ -175,7 +173,3 @@ class _Search:
 
     def _aim(self) -> Aim:
         return Aim.of(self.scene, self.steerings, self.way.states[-1])
-
-    def _remember(self, here: Aim) -> None:
-        if self.nearest is None or here.distance < self.nearest.distance:
-            self.nearest = here
