@@ -14,7 +14,7 @@ from mpi4py import MPI as _MPI  # noqa: E402, F401
 # Loaded when first used: DOLFINx takes a second.
 _PLACES = {
     "Spar": "spar", "Rib": "rib", "Wing": "wing", "Path": "path", "State": "path",
-    "load_table": "path", "Progress": "progress", "plot_paths": "curves",
+    "Trim": "trim", "load_table": "path", "Progress": "progress", "plot_paths": "curves",
     "Yeoh": "materials", "Elastic": "materials", "DRAGON_SKIN_30": "materials",
     "RESIN": "materials", "InputError": "errors",
 }  # fmt: skip

@@ -31,6 +31,9 @@ from morphing_wing.together import (
 
 __all__ = ["app", "main"]
 
+SAVING = ".saving"
+"""File that stands in a folder of results while they are written."""
+
 app = typer.Typer(
     name="morphing-wing",
     help="Pneumatic morphing wings with pantographic ribs, by coupled finite elements.",
@@ -89,7 +92,9 @@ def solve(
     # To save again what is there would drop the fields of all states but the last.
     nothing_new = resume and progress.steps == 0
     if not (nothing_new and comm.bcast(on_root(comm, lambda: saved_already(folder, path)))):
+        on_root(comm, lambda: begin_saving(folder))
         path.save(folder)
+        on_root(comm, (folder / SAVING).unlink)
     typer.echo(f"results are in {folder}")
     return DONE if path.converged else STOPPED
 
@@ -172,8 +177,16 @@ def check_folder(folder: pathlib.Path) -> None:
         raise InputError(f"--out {folder}: must be a folder that can be written")
 
 
+def begin_saving(folder: pathlib.Path) -> None:
+    """Leave a mark in the folder; it stays there if the program is killed before all is saved."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / SAVING).touch()
+
+
 def saved_already(folder: pathlib.Path, path: Any) -> bool:
-    """Whether the folder's summary is that of a path of as many steps that ended alike."""
+    """Whether all of a path of as many steps that ended alike is saved in the folder."""
+    if (folder / SAVING).exists():
+        return False
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         return (summary["steps"], summary["converged"]) == (len(path), path.converged)

@@ -111,14 +111,18 @@ class InertiaCholesky:
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
         """Solve, and shorten a step that is too long."""
-        assert self._inner is not None
-        self._inner.apply(b, y)
+        self.solve(b, y)
         if self.regularisation is not None:
             length = self._length(y)
             if length > self.regularisation.longest_step:
                 y.scale(self.regularisation.longest_step / length)
         if self.part is not None:
             y.scale(self.part(y))
+
+    def solve(self, b: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Solve with the last factor, however long what comes out."""
+        assert self._inner is not None
+        self._inner.apply(b, y)
 
     def inspect(self, matrix: PETSc.Mat) -> None:
         """Factorise a tangent without mass, to count its negative pivots."""

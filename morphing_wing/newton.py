@@ -167,6 +167,16 @@ class Newton:
         me = weakref.proxy(self)
         self._snes.setJacobian(lambda *a: me._jacobian(*a), self.system.matrix)
 
+    def linearise(self) -> InertiaCholesky:
+        """Return the factor of the tangent at the functions' values, a converged state. Collective.
+
+        It is the exact derivative of the residual: without mass, and of the state itself, where the
+        last factor of `solve` is that of the iterate before.
+        """
+        self._assemble(0)
+        self.factor.inspect(self.system.matrix)
+        return self.factor
+
     def _words(self, reason: int) -> str:
         if reason > 0:
             return "converged"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
+import glob
 import os
 import tempfile
 from collections.abc import Callable
@@ -62,7 +65,8 @@ def write_whole(file: str | os.PathLike, write: Callable[[Path], Any]) -> Path:
 
     ``write`` gets the name of a temporary file in the same folder, with the same suffix; the
     finished file then takes its name in one step, so a reader, or a killed run, never meets half
-    of it. Folders are made as required.
+    of it. Folders are made as required. What a killed run has left of its temporary file for the
+    same name is removed.
 
     Parameters
     ----------
@@ -77,16 +81,28 @@ def write_whole(file: str | os.PathLike, write: Callable[[Path], Any]) -> Path:
     """
     file = Path(file)
     file.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{file.stem}-", suffix=file.suffix, dir=file.parent)
-    os.close(handle)
+    prefix = f".{file.stem}-"
+    for left in file.parent.glob(glob.escape(prefix) + "????????" + glob.escape(file.suffix)):
+        _remove_unless_locked(left)
+    handle, name = tempfile.mkstemp(prefix=prefix, suffix=file.suffix, dir=file.parent)
     temporary = Path(name)
     try:
+        with contextlib.suppress(OSError):  # not every file system has locks
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         write(temporary)
         temporary.chmod(0o666 & ~_umask())
         os.replace(temporary, file)
     finally:
         temporary.unlink(missing_ok=True)
+        os.close(handle)
     return file
+
+
+def _remove_unless_locked(file: Path) -> None:
+    # The lock of a writer ends with it, however it ends.
+    with contextlib.suppress(OSError), file.open("rb") as there:
+        fcntl.flock(there, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        file.unlink()
 
 
 def _umask() -> int:

@@ -208,6 +208,17 @@ class Scene(ABC):
             block.function.x.array[:] = state.fields[block.function.name]
         self.system.share()
 
+    # -- for sensitivities --------------------------------------------------------------------
+
+    def take_into_use(self, loads: Sequence[str]) -> None:
+        """Bring more loads into use, beside those that are."""
+        self._use(tuple(n for n in self.load_names if n in self.loads or n in loads))
+
+    def angles(self) -> dict[str, float]:
+        """Return the angles of the present state in degrees, the same bits on all ranks."""
+        found = {n: value for n, value in self._measures().items() if n.endswith("_deg")}
+        return self.comm.bcast(found)
+
     # -- for restarts -------------------------------------------------------------------------
 
     def memory(self) -> dict[str, Any]:

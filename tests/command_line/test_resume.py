@@ -1,6 +1,7 @@
 """`morphing-wing solve --resume`: what was killed goes on, what is done stays as it is."""
 
 import os
+import pathlib
 import subprocess
 import sys
 import time
@@ -83,6 +84,22 @@ def test_a_run_that_finished_but_could_not_save_saves_when_resumed(scene):
     os.remove("run/summary.json")
     assert main(["solve", file, "--out", "run", "--resume"]) == 0
     assert os.path.exists("run/summary.json") and len(table("run")) == 2
+
+
+@pytest.mark.quick
+def test_a_run_killed_while_it_saved_saves_all_when_resumed(scene, monkeypatch):
+    file = scene(points=2)
+
+    def killed(path, folder):
+        path.__class__._save_figures(path, pathlib.Path(folder))
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as during:
+        during.setattr("morphing_wing.path.Path.save", killed)
+        assert main(["solve", file, "--out", "run"]) == 130
+    assert os.path.exists("run/summary.json") and not os.path.exists("run/fields")
+    assert main(["solve", file, "--out", "run", "--resume"]) == 0
+    assert os.path.exists("run/fields/path.pvd") and not os.path.exists("run/.saving")
 
 
 @pytest.mark.quick

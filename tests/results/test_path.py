@@ -1,3 +1,4 @@
+import fcntl
 import json
 import subprocess
 import sys
@@ -101,6 +102,29 @@ def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path):
         write_whole(file, fails)
     assert file.read_text() == "old"
     assert list(tmp_path.iterdir()) == [file]
+
+
+def test_what_a_killed_writer_has_left_is_removed_and_what_a_living_one_writes_is_not(tmp_path):
+    left, living, other = (tmp_path / f".{name}-{end}.csv" for name, end in (
+        ("table", "01234567"), ("table", "76543210"), ("tables", "01234567")))
+    for file in (left, living, other):
+        file.write_text("half of")
+    with living.open() as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        write_whole(tmp_path / "table.csv", lambda name: name.write_text("new"))
+    assert set(tmp_path.iterdir()) == {tmp_path / "table.csv", living, other}
+    assert (tmp_path / "table.csv").read_text() == "new"
+
+
+def test_two_who_write_one_file_at_once_leave_one_of_both(tmp_path):
+    file = tmp_path / "table.csv"
+
+    def write(name):
+        write_whole(file, lambda name: name.write_text("second"))
+        name.write_text("first")
+
+    write_whole(file, write)
+    assert file.read_text() == "first" and list(tmp_path.iterdir()) == [file]
 
 
 def test_saving_onto_a_file_is_bad_input(path, tmp_path):
