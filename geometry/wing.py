@@ -13,6 +13,8 @@ from .rib import RibGeometry
 
 _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_thickness",
             "side_thickness", "nose_length", "foot_height", "foot_width", "tail_bond_length")
+# How the skin may be built, defaults first.
+_OPTIONS = {"skin_root": ("clamped", "free")}
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,10 @@ class WingGeometry:
         Solid nose in front of the chambers.
     skin_thickness
         Skin around the trailing edge's pocket; None: no skin. It is as long as the spar, closed
-        where its two sides meet, open at the tip, clamped with the root section.
+        where its two sides meet, open at the tip.
+    skin_root
+        Whether the skin's edge at the root, behind the spar, is "clamped" with the root section
+        or "free".
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -66,6 +71,7 @@ class WingGeometry:
     side_thickness: float = 2.0
     nose_length: float = 5.0
     skin_thickness: float | None = 1.0
+    skin_root: str = "clamped"
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )
@@ -90,6 +96,7 @@ class WingGeometry:
         ok = is_number(self.glue_stiffness) and self.glue_stiffness > 0
         require(ok, "glue_stiffness", self.glue_stiffness, "N/mm^3", "greater than 0 N/mm^3")
         self._check_chambers()
+        self._check_options()
         if self.skin_thickness is not None:
             self._check_skin()
         if self.rib is not None:
@@ -153,6 +160,14 @@ class WingGeometry:
             )
         require(self.top_thickness < room - 0.1, "top_thickness", self.top_thickness, "mm",
                 f"less than {room - 0.1:.4g} mm, or the chambers are taller than the aerofoil")
+
+    def _check_options(self) -> None:
+        for name, allowed in _OPTIONS.items():
+            value, default = getattr(self, name), allowed[0]
+            ok = type(value) is type(default) and value in allowed
+            require(ok, name, value, "", " or ".join(map(repr, allowed)))
+            ok = self.skin_thickness is not None or value == default
+            require(ok, name, value, "", f"{default!r} in a wing without skin")
 
     def _check_skin(self) -> None:
         value = self.skin_thickness

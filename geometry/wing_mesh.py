@@ -67,9 +67,9 @@ class WingMeshing:
 def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
     """Return swept hexahedra; x chordwise from the leading edge, y up, z along the span.
 
-    Regions: ``spar`` and ``skin``. Faces: ``root`` (z = 0), ``tip`` (the spar's end),
-    ``upper_chambers``, ``lower_chambers``, ``rear_wall`` (where ribs are glued), and with a skin
-    ``pocket_upper``, ``pocket_lower`` (its inner sides), ``trailing_edge``.
+    Regions: ``spar`` and ``skin``. Faces: ``root`` (what is clamped at z = 0), ``tip`` (the spar's
+    end), ``upper_chambers``, ``lower_chambers``, ``rear_wall`` (where ribs are glued), and with a
+    skin ``pocket_upper``, ``pocket_lower`` (its inner sides), ``trailing_edge``.
     """
     wing, parts, skin = geometry, meshing, geometry.skin_thickness is not None
     pieces = [(wing.nose_length, parts.nose),
@@ -98,7 +98,8 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
 
     def faces(midpoints: np.ndarray, normals: np.ndarray) -> dict[str, np.ndarray]:
         in_spar = midpoints[:, 0] < wing.spar_end + 1e-9
-        named = {"root": normals[:, 2] < 0, "tip": (normals[:, 2] > 0) & in_spar}
+        held = in_spar | (wing.skin_root == "clamped")
+        named = {"root": (normals[:, 2] < 0) & held, "tip": (normals[:, 2] > 0) & in_spar}
         named["trailing_edge" if skin else "rear_wall"] = normals[:, 0] > 0
         return named
 

@@ -1,5 +1,7 @@
 """The wing's mesh: counts, volumes, faces, positive cells; bad input."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -132,6 +134,15 @@ def test_faces_have_the_places_of_the_drawing():
     assert wall[..., 1].max() == pytest.approx(inside) == -wall[..., 1].min()
 
 
+def test_free_root_edge_of_the_skin_is_bare_and_the_spars_is_not():
+    meshes = [wing_mesh(replace(SMALL, skin_root=how), WingMeshing.coarse())
+              for how in ("clamped", "free")]
+    clamped, free = (hexahedra.pairs(mesh, "root") for mesh in meshes)
+    skin, spar = (set(meshes[0].regions[name]) for name in ("skin", "spar"))
+    assert {cell for cell, _ in set(clamped) - set(free)} <= skin
+    assert {cell for cell, _ in free} == spar & {cell for cell, _ in clamped}
+
+
 @pytest.mark.parametrize("changes, name", [
     ({"chord": -150.0}, "chord"),
     ({"cavity_length": 0.0}, "cavity_length"),
@@ -144,6 +155,8 @@ def test_faces_have_the_places_of_the_drawing():
     ({"skin_thickness": -1.0}, "skin_thickness"),
     ({"skin_thickness": 2.0}, "skin_thickness"),
     ({"skin_thickness": "1 mm"}, "skin_thickness"),
+    ({"skin_root": "glued"}, "skin_root"),
+    ({"skin_root": "free", "skin_thickness": None}, "skin_root"),
     ({"glue_stiffness": 0.0}, "glue_stiffness"),
     ({"foot_height": -1.0}, "foot_height"),
     ({"rib_positions": ()}, "rib_positions"),
