@@ -14,7 +14,7 @@ from .rib import RibGeometry
 _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_thickness",
             "side_thickness", "nose_length", "foot_height", "foot_width", "tail_bond_length")
 # How the skin may be built, defaults first.
-_OPTIONS = {"skin_root": ("clamped", "free")}
+_OPTIONS = {"skin_root": ("clamped", "free"), "tip_wall": (False, True)}
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,9 @@ class WingGeometry:
     skin_root
         Whether the skin's edge at the root, behind the spar, is "clamped" with the root section
         or "free".
+    tip_wall
+        Whether an elastomer wall, as thick as the end walls, closes the pocket's tip. It ends
+        where the pocket is only as high as the skin is thick.
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -72,6 +75,7 @@ class WingGeometry:
     nose_length: float = 5.0
     skin_thickness: float | None = 1.0
     skin_root: str = "clamped"
+    tip_wall: bool = False
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )
@@ -134,6 +138,12 @@ class WingGeometry:
             raise InputError("skin_thickness = None: must be a length for a pocket to end")
         return self.section.x_where_half_thickness(self.skin_thickness, front=False)
 
+    @property
+    def tip_wall_end(self) -> float:
+        """Chordwise end of a tip wall in mm: from there the pocket is lower than the skin."""
+        assert self.skin_thickness is not None
+        return self.section.x_where_half_thickness(1.5 * self.skin_thickness, front=False)
+
     def rib_roots(self) -> np.ndarray:
         """Return the root of each rib, shape (n_ribs, 3), mm."""
         y = float(self.section.camber(self.spar_end))
@@ -179,6 +189,9 @@ class WingGeometry:
                 f"more than {edge:.4g} mm, half the trailing edge's thickness")
         ok = value < front and self.pocket_end > self.spar_end + 1.0
         require(ok, "skin_thickness", value, "mm", "so thin that a pocket remains behind the spar")
+        ok = 1.5 * value < front and self.tip_wall_end > self.spar_end + 1.0
+        require(ok or not self.tip_wall, "skin_thickness", value, "mm",
+                "so thin that a tip wall fits in the pocket")
 
     def _check_ribs(self, rib: RibGeometry) -> None:
         places = self.rib_positions if isinstance(self.rib_positions, (tuple, list)) else ()

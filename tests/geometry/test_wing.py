@@ -21,7 +21,8 @@ MESHINGS = pytest.mark.parametrize(
 GEOMETRIES = pytest.mark.parametrize("wing", [
     SMALL, NO_SKIN, WingGeometry.prototype(n_cells=2, aerofoil="2412"),
     WingGeometry.prototype(n_cells=1, skin_thickness=0.5),
-    WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0)])
+    WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0),
+    WingGeometry.prototype(n_cells=1, aerofoil="2412", tip_wall=True)])
 
 
 def area(section, height, start, end):
@@ -143,6 +144,28 @@ def test_free_root_edge_of_the_skin_is_bare_and_the_spars_is_not():
     assert {cell for cell, _ in free} == spar & {cell for cell, _ in clamped}
 
 
+def test_tip_wall_fills_the_pocket_up_to_where_it_is_as_high_as_the_skin_is_thick():
+    wing = replace(SMALL, tip_wall=True)
+    mesh = wing_mesh(wing, MANY)
+    pocket = area(wing.section, lambda s, x: s.half_thickness(x) - 1.0,
+                  wing.spar_end, wing.tip_wall_end)
+    assert hexahedra.volume(mesh, "tip_wall") == pytest.approx(
+        pocket * wing.wall_length, rel=1e-3)
+    assert wing.section.half_thickness(wing.tip_wall_end) - 1.0 == pytest.approx(0.5)
+    assert hexahedra.volume(mesh, "skin") == pytest.approx(
+        hexahedra.volume(wing_mesh(SMALL, MANY), "skin"), rel=1e-3)
+
+
+def test_faces_of_the_pocket_end_at_the_tip_wall_and_the_tip_stays_the_spars():
+    mesh = wing_mesh(replace(SMALL, tip_wall=True), WingMeshing.coarse())
+    for name in ("pocket_upper", "pocket_lower", "rear_wall"):
+        assert mesh.facet_points(name)[..., 2].max() == pytest.approx(
+            SMALL.span - SMALL.wall_length)
+    assert mesh.facet_points("rear_wall")[..., 0] == pytest.approx(SMALL.spar_end)
+    assert mesh.facet_points("tip")[..., 0].max() == pytest.approx(SMALL.spar_end)
+    assert len(np.unique(np.round(mesh.points, 6), axis=0)) == len(mesh.points)
+
+
 @pytest.mark.parametrize("changes, name", [
     ({"chord": -150.0}, "chord"),
     ({"cavity_length": 0.0}, "cavity_length"),
@@ -157,6 +180,10 @@ def test_free_root_edge_of_the_skin_is_bare_and_the_spars_is_not():
     ({"skin_thickness": "1 mm"}, "skin_thickness"),
     ({"skin_root": "glued"}, "skin_root"),
     ({"skin_root": "free", "skin_thickness": None}, "skin_root"),
+    ({"tip_wall": 1}, "tip_wall"),
+    ({"tip_wall": True, "skin_thickness": None}, "tip_wall"),
+    ({"tip_wall": True, "skin_thickness": 2.7, "top_thickness": 2.8, "spar_fraction": 0.8,
+      "rib": None}, "skin_thickness"),
     ({"glue_stiffness": 0.0}, "glue_stiffness"),
     ({"foot_height": -1.0}, "foot_height"),
     ({"rib_positions": ()}, "rib_positions"),
