@@ -12,9 +12,14 @@ from .aerofoil import Aerofoil
 from .rib import RibGeometry
 
 _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_thickness",
-            "side_thickness", "nose_length", "foot_height", "foot_width", "tail_bond_length")
+            "side_thickness", "nose_length", "skin_thickness", "foot_height", "foot_width",
+            "tail_bond_length")
 # How the skin may be built, defaults first.
-_OPTIONS = {"skin_root": ("clamped", "free"), "tip_wall": (False, True)}
+_OPTIONS = {
+    "skin_root": ("clamped", "free"),
+    "tip_wall": (False, True),
+    "skin_over_spar": (False, True),
+}
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,8 @@ class WingGeometry:
     tip_wall
         Whether an elastomer wall, as thick as the end walls, closes the pocket's tip. It ends
         where the pocket is only as high as the skin is thick.
+    skin_over_spar
+        Whether the skin also lies over the spar: the chambers are lower by its thickness.
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -76,6 +83,7 @@ class WingGeometry:
     skin_thickness: float | None = 1.0
     skin_root: str = "clamped"
     tip_wall: bool = False
+    skin_over_spar: bool = False
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )
@@ -91,7 +99,7 @@ class WingGeometry:
         names = {f.name for f in fields(self)}
         for name in names & set(_LENGTHS):
             value = getattr(self, name)
-            if value is None and name.startswith("foot_"):
+            if value is None and name.startswith(("foot_", "skin_")):
                 continue
             require(is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
         require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
@@ -99,8 +107,8 @@ class WingGeometry:
         require(ok, "spar_fraction", self.spar_fraction, "", "between 0.1 and 0.9")
         ok = is_number(self.glue_stiffness) and self.glue_stiffness > 0
         require(ok, "glue_stiffness", self.glue_stiffness, "N/mm^3", "greater than 0 N/mm^3")
-        self._check_chambers()
         self._check_options()
+        self._check_chambers()
         if self.skin_thickness is not None:
             self._check_skin()
         if self.rib is not None:
@@ -130,6 +138,11 @@ class WingGeometry:
     def cavity_end(self) -> float:
         """Chordwise end of the chambers in mm."""
         return self.spar_end - self.side_thickness
+
+    @property
+    def outer_wall(self) -> float:
+        """Thickness in mm between a chamber and the outer contour: top wall, skin where there."""
+        return self.top_thickness + (self.skin_thickness if self.skin_over_spar else 0.0)
 
     @property
     def pocket_end(self) -> float:
@@ -168,8 +181,9 @@ class WingGeometry:
                 f"chord = {self.chord:g} mm with aerofoil {self.aerofoil}: must be thicker at both "
                 "ends of the chambers, or they are taller than the aerofoil"
             )
-        require(self.top_thickness < room - 0.1, "top_thickness", self.top_thickness, "mm",
-                f"less than {room - 0.1:.4g} mm, or the chambers are taller than the aerofoil")
+        room -= 0.1 + self.outer_wall - self.top_thickness
+        require(self.top_thickness < room, "top_thickness", self.top_thickness, "mm",
+                f"less than {room:.4g} mm, or the chambers are taller than the aerofoil")
 
     def _check_options(self) -> None:
         for name, allowed in _OPTIONS.items():
@@ -181,8 +195,7 @@ class WingGeometry:
 
     def _check_skin(self) -> None:
         value = self.skin_thickness
-        ok = is_number(value) and 0 < value < self.top_thickness
-        require(ok, "skin_thickness", value, "mm",
+        require(value < self.outer_wall, "skin_thickness", value, "mm",
                 f"greater than 0 mm and less than top_thickness = {self.top_thickness:g} mm")
         edge, front = (float(self.section.half_thickness(x)) for x in (self.chord, self.spar_end))
         require(edge < value, "skin_thickness", value, "mm",

@@ -24,7 +24,8 @@ class WingMeshing:
     nose, cavity_width, side_thickness, pocket, tail : (n,) arrays
         Along the chord.
     cavity_height, middle_thickness, top_thickness, skin_thickness : (n,) arrays
-        Along the height; the skin is the outer part of the top wall, ``top_thickness`` the rest.
+        Along the height; the skin is the outer part of the wall over the chambers,
+        ``top_thickness`` the rest.
     cavity_length, wall_length : (n,) arrays
         Along the span.
     """
@@ -122,7 +123,7 @@ def _with_foot_edge(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
     if wing.rib is None:
         return fractions
     bottom = wing.middle_thickness / 2.0
-    top = float(wing.section.half_thickness(wing.spar_end)) - wing.top_thickness
+    top = float(wing.section.half_thickness(wing.spar_end)) - wing.outer_wall
     edge = (wing.foot()[0] / 2.0 - bottom) / (top - bottom)
     if not 0.02 < edge < 0.98:
         return fractions
@@ -172,12 +173,12 @@ def _height(wing: WingGeometry, x: np.ndarray, level: np.ndarray) -> np.ndarray:
     skin = wing.skin_thickness or wing.top_thickness / 2.0
     inside = np.maximum(outside - skin, 0.0)
     inside[x > _closed(wing)] = 0.0
-    chamber = [np.full_like(x, wing.middle_thickness / 2.0), outside - wing.top_thickness]
+    chamber = [np.full_like(x, wing.middle_thickness / 2.0), outside - wing.outer_wall]
     behind = x > wing.spar_end
     if behind.any():
         # In a tip wall the levels of the spar's end become lower with the pocket.
         front = wing.section.half_thickness(wing.spar_end)
-        ends = wing.middle_thickness / 2.0, front - wing.top_thickness
+        ends = wing.middle_thickness / 2.0, front - wing.outer_wall
         for height, end in zip(chamber, ends, strict=True):
             height[behind] = end / (front - skin) * inside[behind]
     heights = np.stack([np.zeros_like(x), *chamber, inside, outside])

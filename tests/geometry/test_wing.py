@@ -22,7 +22,8 @@ GEOMETRIES = pytest.mark.parametrize("wing", [
     SMALL, NO_SKIN, WingGeometry.prototype(n_cells=2, aerofoil="2412"),
     WingGeometry.prototype(n_cells=1, skin_thickness=0.5),
     WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0),
-    WingGeometry.prototype(n_cells=1, aerofoil="2412", tip_wall=True)])
+    WingGeometry.prototype(n_cells=1, aerofoil="2412", tip_wall=True),
+    WingGeometry.prototype(n_cells=1, skin_over_spar=True, tip_wall=True)])
 
 
 def area(section, height, start, end):
@@ -72,12 +73,14 @@ def test_unnamed_boundary_is_the_outer_contour_and_the_skins_open_end():
     np.testing.assert_allclose(total, 0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("wing", [SMALL, NO_SKIN])
+@pytest.mark.parametrize("wing", [SMALL, NO_SKIN, replace(SMALL, skin_over_spar=True)])
 def test_chambers_are_closed_and_hold_what_the_aerofoil_leaves(wing):
     mesh = wing_mesh(wing, MANY)
 
     def height(section, x):
-        return section.half_thickness(x) - wing.top_thickness - wing.middle_thickness / 2
+        skin = wing.skin_thickness if wing.skin_over_spar else 0.0
+        wall = wing.top_thickness + skin
+        return section.half_thickness(x) - wall - wing.middle_thickness / 2
 
     expected = area(wing.section, height, wing.nose_length, wing.cavity_end) / 2
     for row in ("upper_chambers", "lower_chambers"):
@@ -180,6 +183,9 @@ def test_faces_of_the_pocket_end_at_the_tip_wall_and_the_tip_stays_the_spars():
     ({"skin_thickness": "1 mm"}, "skin_thickness"),
     ({"skin_root": "glued"}, "skin_root"),
     ({"skin_root": "free", "skin_thickness": None}, "skin_root"),
+    ({"skin_over_spar": True, "skin_thickness": None}, "skin_over_spar"),
+    ({"skin_over_spar": True, "top_thickness": 4.0}, "top_thickness"),
+    ({"skin_over_spar": True, "skin_thickness": "1 mm"}, "skin_thickness"),
     ({"tip_wall": 1}, "tip_wall"),
     ({"tip_wall": True, "skin_thickness": None}, "tip_wall"),
     ({"tip_wall": True, "skin_thickness": 2.7, "top_thickness": 2.8, "spar_fraction": 0.8,
