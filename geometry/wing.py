@@ -19,6 +19,7 @@ _OPTIONS = {
     "skin_root": ("clamped", "free"),
     "tip_wall": (False, True),
     "skin_over_spar": (False, True),
+    "skin_slit": ("none", "lower", "trailing_edge"),
 }
 
 
@@ -55,6 +56,10 @@ class WingGeometry:
         where the pocket is only as high as the skin is thick.
     skin_over_spar
         Whether the skin also lies over the spar: the chambers are lower by its thickness.
+    skin_slit
+        "none"; "lower": the lower skin is cut along the span right behind the spar, up to a tip
+        wall; "trailing_edge": its two sides are not joined behind the pocket. Limits of a skin
+        that is slack or not bonded; the sides of a slit do not feel each other.
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -84,6 +89,7 @@ class WingGeometry:
     skin_root: str = "clamped"
     tip_wall: bool = False
     skin_over_spar: bool = False
+    skin_slit: str = "none"
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )

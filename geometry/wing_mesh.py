@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .hexmesh import HexMesh, breakpoints, swept_blocks, two_sided, uniform
+from .seams import with_seams
 from .wing import WingGeometry
 
 # Kinds of blocks: solid ones are positive.
@@ -115,7 +116,7 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
         return _to_aerofoil(wing, grid - np.array([0.0, _TOP, 0.0]))
 
     mesh = swept_blocks((x, v, z), kind, names, mapping, faces)
-    return _merged(_with_pocket_sides(mesh)) if skin else mesh
+    return with_seams(_with_pocket_sides(mesh), wing) if skin else mesh
 
 
 def _with_foot_edge(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
@@ -199,11 +200,3 @@ def _with_pocket_sides(mesh: HexMesh) -> HexMesh:
     for name, side in (("rear_wall", 3), ("pocket_upper", 1), ("pocket_lower", 4)):
         facets[name] = pocket[pocket[:, 1] == side]
     return replace(mesh, facets=facets)
-
-
-def _merged(mesh: HexMesh) -> HexMesh:
-    """Join points that coincide: where the two sides of the skin meet."""
-    _, first, number = np.unique(
-        np.round(mesh.points, 7) + 0.0, axis=0, return_index=True, return_inverse=True
-    )
-    return replace(mesh, points=mesh.points[first], cells=number.ravel()[mesh.cells])

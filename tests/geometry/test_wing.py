@@ -23,7 +23,9 @@ GEOMETRIES = pytest.mark.parametrize("wing", [
     WingGeometry.prototype(n_cells=1, skin_thickness=0.5),
     WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0),
     WingGeometry.prototype(n_cells=1, aerofoil="2412", tip_wall=True),
-    WingGeometry.prototype(n_cells=1, skin_over_spar=True, tip_wall=True)])
+    WingGeometry.prototype(n_cells=1, skin_over_spar=True, tip_wall=True),
+    WingGeometry.prototype(n_cells=1, skin_slit="lower"),
+    WingGeometry.prototype(n_cells=1, aerofoil="2412", skin_slit="trailing_edge")])
 
 
 def area(section, height, start, end):
@@ -169,6 +171,42 @@ def test_faces_of_the_pocket_end_at_the_tip_wall_and_the_tip_stays_the_spars():
     assert len(np.unique(np.round(mesh.points, 6), axis=0)) == len(mesh.points)
 
 
+def bare_facets(mesh):
+    """Corners of facets that are boundary but not of the mesh without a slit."""
+    whole = wing_mesh(SMALL, WingMeshing.coarse())
+    mesh.facets["new"] = np.array(sorted(hexahedra.boundary(mesh) - hexahedra.boundary(whole)))
+    return mesh.facet_points("new")
+
+
+def test_slit_trailing_edge_parts_the_two_sides_behind_the_pocket_and_nothing_else():
+    mesh = wing_mesh(replace(SMALL, skin_slit="trailing_edge"), WingMeshing.coarse())
+    x, y, z = np.moveaxis(bare_facets(mesh), -1, 0)
+    assert x.min() == pytest.approx(SMALL.pocket_end) and x.max() == pytest.approx(SMALL.chord)
+    np.testing.assert_allclose(y, 0.0, atol=1e-12)
+    assert hexahedra.area(mesh, "new") == pytest.approx(
+        2.0 * (SMALL.chord - SMALL.pocket_end) * SMALL.span)
+
+
+def test_slit_lower_skin_is_parted_from_the_spar_and_nothing_else():
+    mesh = wing_mesh(replace(SMALL, skin_slit="lower"), WingMeshing.coarse())
+    x, y, z = np.moveaxis(bare_facets(mesh), -1, 0)
+    np.testing.assert_allclose(x, SMALL.spar_end)
+    outside = -float(SMALL.section.half_thickness(SMALL.spar_end))
+    assert y.min() == pytest.approx(outside) and y.max() == pytest.approx(outside + 1.0)
+    assert hexahedra.area(mesh, "new") == pytest.approx(2.0 * SMALL.span)
+
+
+def test_slit_of_the_lower_skin_ends_at_the_tip_wall():
+    mesh = wing_mesh(replace(SMALL, skin_slit="lower", tip_wall=True), WingMeshing.coarse())
+    points, count = np.unique(np.round(mesh.points, 6), axis=0, return_counts=True)
+    doubled = points[count == 2]
+    assert len(doubled) == 2 * 4  # at the skin's two sides, where the first four pieces begin
+    np.testing.assert_allclose(doubled[:, 0], SMALL.spar_end)
+    assert doubled[:, 2].min() == 0.0
+    assert doubled[:, 2].max() == pytest.approx(
+        SMALL.span - SMALL.wall_length - SMALL.cavity_length)
+
+
 @pytest.mark.parametrize("changes, name", [
     ({"chord": -150.0}, "chord"),
     ({"cavity_length": 0.0}, "cavity_length"),
@@ -186,6 +224,8 @@ def test_faces_of_the_pocket_end_at_the_tip_wall_and_the_tip_stays_the_spars():
     ({"skin_over_spar": True, "skin_thickness": None}, "skin_over_spar"),
     ({"skin_over_spar": True, "top_thickness": 4.0}, "top_thickness"),
     ({"skin_over_spar": True, "skin_thickness": "1 mm"}, "skin_thickness"),
+    ({"skin_slit": "upper"}, "skin_slit"),
+    ({"skin_slit": "lower", "skin_thickness": None}, "skin_slit"),
     ({"tip_wall": 1}, "tip_wall"),
     ({"tip_wall": True, "skin_thickness": None}, "tip_wall"),
     ({"tip_wall": True, "skin_thickness": 2.7, "top_thickness": 2.8, "spar_fraction": 0.8,
