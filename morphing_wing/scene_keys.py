@@ -15,9 +15,11 @@ from pydantic import BeforeValidator, Field
 from morphing_wing.errors import InputError, plain, require
 from morphing_wing.scene_values import (
     Angle,
+    Density,
     GlueStiffness,
     Length,
     Modulus,
+    Multiple,
     Point,
     Pressure,
     Tension,
@@ -100,17 +102,19 @@ class WingKeys(Keys):
 
 
 class ElastomerKeys(Keys):
-    """``[elastomer]``: Yeoh's C10, C20, ... and the bulk modulus."""
+    """``[elastomer]``: Yeoh's C10, C20, ..., the bulk modulus, the density."""
 
     coefficients: list[Modulus] | None = None
     bulk: Modulus | None = None
+    density: Density | None = None
 
 
 class ResinKeys(Keys):
-    """``[resin]``: Young's modulus and Poisson's ratio."""
+    """``[resin]``: Young's modulus, Poisson's ratio, density."""
 
     E: Modulus | None = None
     nu: float | None = None
+    density: Density | None = None
 
 
 class PressureKeys(Keys):
@@ -129,9 +133,10 @@ class RibLoadKeys(Keys):
 
 
 class WingLoadKeys(PressureKeys):
-    """``[loads]`` of a wing; ``cable`` is the tension in each rib's cable."""
+    """``[loads]`` of a wing: ``cable`` in each rib's, ``gravity`` in multiples of the standard."""
 
     cable: Tension | None = None
+    gravity: Multiple | None = None
 
 
 class SparFile(Keys):

@@ -34,6 +34,7 @@ from .pocket import Pocket
 from .scene import Scene, choose_fidelity
 from .system import EquilibriumSystem
 from .tension import check_tension
+from .weight import Weight
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ class Wing(Scene):
     """
 
     name = "wing"
-    load_names = ("upper_MPa", "lower_MPa", "cable_N")
+    load_names = ("upper_MPa", "lower_MPa", "cable_N", "gravity_g")
 
     def __init__(
         self,
@@ -122,12 +123,13 @@ class Wing(Scene):
         upper: float | Sequence[float] | None = None,
         lower: float | Sequence[float] | None = None,
         cable: float | Sequence[float] | None = None,
+        gravity: float | Sequence[float] | None = None,
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
         restart: str | os.PathLike | None = None,
         resume: str | os.PathLike | None = None,
     ) -> Path:
-        """Inflate chambers and pull cables.
+        """Inflate chambers, pull cables, let elastomer and ribs weigh.
 
         Parameters
         ----------
@@ -135,6 +137,8 @@ class Wing(Scene):
             Pressures in MPa in the two rows of chambers: numbers, sequences or None.
         cable
             Tension in N in the cable of each rib: a number, a sequence or None.
+        gravity
+            Weight along -y in multiples of standard gravity: a number, a sequence or None.
         on_step, on_cut, restart, resume
             See `Scene.follow`.
 
@@ -151,7 +155,8 @@ class Wing(Scene):
             ribs.
         """
         check_tension(cable, ribs=self.ribs is not None)
-        loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}
+        loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable,
+                 "gravity_g": gravity}
         return self.follow(loads, on_step, on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
@@ -223,6 +228,10 @@ class Wing(Scene):
             reach = cable_potential(1.0, displacement(self.ribs.function), guide)
             self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
             energies.append(self.ribs.at_ends("tail", tension * reach))
+        if "gravity_g" in in_use:
+            self._weight = Weight(self.body, self.ribs)
+            self.loads["gravity_g"] = self._weight.multiples
+            energies += self._weight.potentials
         return energies, [part.tangent_correction for part in self._parts()]
 
     def _stored(self) -> list[Any]:
@@ -236,6 +245,8 @@ class Wing(Scene):
         found = self._chambers.volumes()
         if "cable_N" in self.loads:
             found["cable_N"] = -compat.assemble_scalar(self.comm, self._cable_length)
+        if "gravity_g" in self.loads:
+            found["gravity_g"] = self._weight.fall()
         return found
 
     # -- what is measured ---------------------------------------------------------------------

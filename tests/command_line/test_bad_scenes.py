@@ -147,6 +147,14 @@ BROKEN = {
         toml(SPAR, elastomer="coefficients = []"), "elastomer.coefficients = "),
     "rubber of negative bulk modulus": (
         toml(SPAR, elastomer='bulk = "-1 MPa"'), "elastomer.bulk = -1 MPa: must be greater"),
+    "rubber without weight": (
+        toml(WING, elastomer='density = "0 kg/m^3"'), "elastomer.density = 0 kg/m^3: must be"),
+    "gravity with a unit": (
+        loads(WING, 'gravity = "9.81 m/s^2"'), "'9.81 m/s^2': must be a plain finite number"),
+    "gravity not finite": (loads(WING, "gravity = [1.0, nan]"), "must be a plain finite number"),
+    "gravity from no number": (
+        loads(WING, "gravity = { points = 3 }"), "must be written as { from = ..., to = 1.0"),
+    "gravity on a spar alone": (loads(SPAR, "gravity = 1.0"), "loads.gravity: unknown key"),
     "resin incompressible": (toml(RIB, resin="nu = 0.5"), "resin.nu = 0.5: must be greater"),
     "resin without stiffness": (toml(RIB, resin='E = "0 MPa"'), "resin.E = 0 MPa: must be greater"),
     "resin for a spar": (toml(SPAR, resin="nu = 0.3"), "resin: unknown key"),
