@@ -60,6 +60,9 @@ class WingGeometry:
         "none"; "lower": the lower skin is cut along the span right behind the spar, up to a tip
         wall; "trailing_edge": its two sides are not joined behind the pocket. Limits of a skin
         that is slack or not bonded; the sides of a slit do not feel each other.
+    skin_prestretch
+        Stretches along the chord (x) and the span (z) with which the skin behind the spar is
+        built in, 1 or more. Where nothing holds it, it contracts.
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -90,6 +93,7 @@ class WingGeometry:
     tip_wall: bool = False
     skin_over_spar: bool = False
     skin_slit: str = "none"
+    skin_prestretch: tuple[float, float] = (1.0, 1.0)
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )
@@ -151,6 +155,11 @@ class WingGeometry:
         return self.top_thickness + (self.skin_thickness if self.skin_over_spar else 0.0)
 
     @property
+    def is_prestretched(self) -> bool:
+        """Whether the skin is built in stretched."""
+        return tuple(self.skin_prestretch) != (1.0, 1.0)
+
+    @property
     def pocket_end(self) -> float:
         """Chordwise place in mm where the two sides of the skin meet."""
         if self.skin_thickness is None:
@@ -198,6 +207,11 @@ class WingGeometry:
             require(ok, name, value, "", " or ".join(map(repr, allowed)))
             ok = self.skin_thickness is not None or value == default
             require(ok, name, value, "", f"{default!r} in a wing without skin")
+        given = self.skin_prestretch if isinstance(self.skin_prestretch, (tuple, list)) else ()
+        ok = len(given) == 2 and all(is_number(s) and s >= 1.0 for s in given)
+        require(ok, "skin_prestretch", self.skin_prestretch, "", "two stretches of 1 or more")
+        ok = self.skin_thickness is not None or not self.is_prestretched
+        require(ok, "skin_prestretch", given, "", "(1, 1) in a wing without skin")
 
     def _check_skin(self) -> None:
         value = self.skin_thickness

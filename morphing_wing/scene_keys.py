@@ -92,6 +92,7 @@ class WingKeys(Keys):
     tip_wall: bool | None = None
     skin_over_spar: bool | None = None
     skin_slit: Literal["none", "lower", "trailing_edge"] | None = None
+    skin_prestretch: Annotated[list[float], Field(min_length=2, max_length=2)] | None = None
     rib: Annotated[RibKeys | None, BeforeValidator(or_none)] = None
     rib_positions: Annotated[list[float], Field(min_length=1)] | None = None
     foot_height: Length | None = None

@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import InputError, require
 
-UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm", "g": "g"}
+UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm", "g": "g", "part": ""}
 """End of a load's name -> its unit as one writes it."""
 
 

@@ -91,6 +91,9 @@ class Wing(Scene):
         options_prefix: str = "wing_",
     ) -> None:
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
+        prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
+        if prestretch is not None:
+            self.load_names = (*self.load_names, "prestretch_part")
         super().__init__(fidelity, comm)
         self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
         self._options_prefix = options_prefix
@@ -101,7 +104,7 @@ class Wing(Scene):
             grid = with_glued_faces(grid, geometry)
         self.body = Elastomer(
             self.comm, grid, elastomer, element_named(element or rung.element),
-            clamped=("root",), thin=("skin",),
+            clamped=("root",), thin=("skin",), prestretch=prestretch,
         )
         blocks, sharing = [self.body.block], []
         if geometry.rib is not None:
@@ -145,7 +148,9 @@ class Wing(Scene):
         Returns
         -------
         Path
-            All converged steps. ``contact`` in its table is true from where the skin passes
+            All converged steps. A skin with prestretch is built in first, in steps that are not
+            among them unless they fail; what that stores is in the energy, not in the external
+            work. ``contact`` in its table is true from where the skin passes
             through itself or a rib: contact forces are not modelled.
 
         Raises
@@ -157,6 +162,12 @@ class Wing(Scene):
         check_tension(cable, ribs=self.ribs is not None)
         loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable,
                  "gravity_g": gravity}
+        if self.body.prestretch is not None:
+            loads["prestretch_part"] = 1.0
+            if resume is None and self._load["prestretch_part"] == 0.0:
+                built_in = self.follow({"prestretch_part": 1.0})
+                if not built_in.converged:
+                    return built_in
         return self.follow(loads, on_step, on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
@@ -228,6 +239,8 @@ class Wing(Scene):
             reach = cable_potential(1.0, displacement(self.ribs.function), guide)
             self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
             energies.append(self.ribs.at_ends("tail", tension * reach))
+        if "prestretch_part" in in_use:
+            self.loads["prestretch_part"] = [self.body.prestretch.part]
         if "gravity_g" in in_use:
             self._weight = Weight(self.body, self.ribs)
             self.loads["gravity_g"] = self._weight.multiples

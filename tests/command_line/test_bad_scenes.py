@@ -122,6 +122,11 @@ BROKEN = {
         wing('skin_thickness = "2 mm"'), "geometry.skin_thickness = 2 mm: must be"),
     "skin of no thickness": (
         wing('skin_thickness = "0 mm"'), "geometry.skin_thickness = 0 mm: must be"),
+    "skin slit nowhere known": (
+        wing('skin_slit = "upper"'), "geometry.skin_slit = 'upper': must be 'none', 'lower' or"),
+    "skin squeezed": (
+        wing("skin_prestretch = [0.9, 1.0]"), "must be two stretches of 1 or more"),
+    "skin stretched one way": (wing("skin_prestretch = [1.1]"), "geometry.skin_prestretch = "),
     "skin switched off by false": (
         wing("skin_thickness = false"), "geometry.skin_thickness = False: must be a length"),
     "rib longer than the pocket": (

@@ -104,6 +104,14 @@ def test_none_switches_skin_and_ribs_off():
     assert bare.skin_thickness is None and bare.rib is None
 
 
+def test_skin_of_a_wing_is_built_as_the_file_says():
+    lines = ('skin_root = "free"', "tip_wall = true", "skin_over_spar = true",
+             'skin_slit = "lower"', "skin_prestretch = [1.1, 1]")
+    assert wing("\n".join(lines)) == WingGeometry.prototype(
+        skin_root="free", tip_wall=True, skin_over_spar=True, skin_slit="lower",
+        skin_prestretch=(1.1, 1.0))
+
+
 def test_ribs_of_a_wing_change_from_those_of_its_preset():
     rib = wing('[geometry.rib]\nn_cells = 12\ncrossing_angle = "80 deg"').rib
     base = WingGeometry.prototype().rib
