@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .section import Section
+from .section import Circle, Rectangle, Section
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,18 @@ class Frame:
         ]
         pairs = zip(self.ribs, self.kinds, strict=True)
         return np.array([of[rib][self.names[kind]] for rib, kind in pairs])
+
+    def half_heights(self) -> np.ndarray:
+        """Return half the height in mm of each bar, shape (m,); NaN where a bar only stiffens."""
+        half = {Rectangle: lambda s: s.width / 2.0, Circle: lambda s: s.diameter / 2.0}
+        of = [{name: half.get(type(section), lambda s: np.nan)(section)
+               for name, section in sections.items()} for sections in self.sections]
+        pairs = zip(self.ribs, self.kinds, strict=True)
+        return np.array([of[rib][self.names[kind]] for rib, kind in pairs])
+
+    def lengths(self) -> np.ndarray:
+        """Return the length in mm of each bar, shape (m,)."""
+        return np.linalg.norm(np.diff(self.points[self.bars], axis=1)[:, 0], axis=1)
 
 
 def join(frames: Sequence[Frame]) -> Frame:

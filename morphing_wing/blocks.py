@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -22,6 +22,10 @@ class Block:
         Local dofs (flattened) that keep the value that the function holds.
     absent
         Local dofs (flattened, ghosts too) that are no unknowns: nothing depends on them.
+    local
+        Whether the function's mesh is this rank's alone; its dofs then stand for others' unknowns.
+    refresh
+        Called after new values came into the function.
     numbers
         Global number of each local dof, set by `EquilibriumSystem`; -1 for one that stands for
         nothing.
@@ -30,6 +34,8 @@ class Block:
     function: Any
     constrained: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
     absent: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    local: bool = False
+    refresh: Callable[[], None] | None = None
     numbers: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64), init=False)
 
     @property
@@ -48,22 +54,3 @@ class Block:
         """Number of unknowns owned by this rank."""
         return len(self.owned)
 
-
-@dataclass(frozen=True)
-class SharedUnknowns:
-    """How the cells of a shared block stand for dofs of an independent block.
-
-    Attributes
-    ----------
-    of
-        Index of the independent block.
-    masters
-        For each group, the local dofs of that block on the rank that owns them, else empty;
-        list of (k,) arrays.
-    cells
-        For each group the local cells whose k dofs stand for the group's masters.
-    """
-
-    of: int
-    masters: Sequence[np.ndarray]
-    cells: Sequence[np.ndarray]

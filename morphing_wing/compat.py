@@ -115,14 +115,15 @@ def vector_space(mesh: Any, degree: int, size: int = 3) -> Any:
 
 def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> Any:
     """Return discontinuous Lagrange scalars, or tensors of a shape."""
-    if _HAS_BASIX_UFL:
-        return fem.functionspace(mesh, ("DG", degree, shape) if shape else ("DG", degree))
-    family = (_discontinuous(mesh), degree)
-    if not shape:
-        return fem.FunctionSpace(mesh, family)
-    if len(shape) == 1:
-        return fem.VectorFunctionSpace(mesh, family, dim=shape[0])
-    return fem.TensorFunctionSpace(mesh, family, shape=shape)
+    with _compiling(mesh.comm):
+        if _HAS_BASIX_UFL:
+            return fem.functionspace(mesh, ("DG", degree, shape) if shape else ("DG", degree))
+        family = (_discontinuous(mesh), degree)
+        if not shape:
+            return fem.FunctionSpace(mesh, family)
+        if len(shape) == 1:
+            return fem.VectorFunctionSpace(mesh, family, dim=shape[0])
+        return fem.TensorFunctionSpace(mesh, family, shape=shape)
 
 
 def _discontinuous(mesh: Any) -> str:
@@ -187,8 +188,14 @@ def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
 def form(expression: Any) -> Any:
     """Compile a UFL form with optimised kernels."""
     comm = expression.ufl_domains()[0].ufl_cargo().comm
-    with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
+    with _compiling(comm):
         return fem.form(expression, **_FORM_KEYWORDS)
+
+
+@contextmanager
+def _compiling(comm: MPI.Comm) -> Iterator[None]:
+    with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
+        yield
 
 
 @contextmanager

@@ -160,6 +160,12 @@ class Elastomer:
         drawn.x.array[:] = self.function.x.array[dofs]
         return drawn
 
+    def displacement_space(self) -> tuple[Any, np.ndarray]:
+        """Return the displacement's space, and the function's dof of each of its dofs."""
+        if not self.is_mixed:
+            return self.function.function_space, np.arange(len(self.function.x.array))
+        return self._drawn[0].function_space, np.asarray(self._drawn[1])
+
     def n_pressures(self) -> int:
         """Global number of pressure unknowns."""
         if self.p is None:

@@ -15,6 +15,7 @@ from morphing_wing.geometry.frame import Frame
 from morphing_wing.materials import Elastic
 
 from . import compat
+from .blocks import Block
 from .iterate import Iterate
 
 
@@ -110,6 +111,14 @@ class BeamFrame:
         """Return the dofs if this rank owns them, else none: the masters of shared unknowns."""
         n_owned = 6 * self.function.function_space.dofmap.index_map.size_local
         return dofs[dofs < n_owned]
+
+    def end_numbers(self, block: Block, kind: str, rib: int) -> np.ndarray:
+        """Return a system's numbers of a rib's root or tail on every rank, shape (6,)."""
+        numbers = np.full(6, -1, dtype=np.int64)
+        dofs = self.owned(self.end_dofs(kind, rib))
+        if len(dofs):
+            numbers[:] = block.numbers[dofs]
+        return self.comm.allreduce(numbers, op=MPI.MAX)
 
     def end_values(self, kind: str, rib: int) -> np.ndarray:
         """Return u (mm) and theta of a rib's root or tail on every rank, shape (6,)."""

@@ -9,7 +9,7 @@ the unregularised problem.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,6 +63,8 @@ class InertiaCholesky:
         the surplus negative pivots of the last tangent, and they are more than ``tolerated``.
     tolerated
         Surplus negative pivots of the state that the solve starts from.
+    part
+        Called with a step; returns which part of it to take. None: all of it.
     """
 
     raises = 100.0
@@ -80,6 +82,7 @@ class InertiaCholesky:
         self.stale = True
         self.incurable = False
         self.tolerated = 0
+        self.part: Callable[[PETSc.Vec], float] | None = None
         self._prefix = prefix
         self._inner: PETSc.PC | None = None
         self._unit_value: float | None = None
@@ -114,6 +117,8 @@ class InertiaCholesky:
             length = self._length(y)
             if length > self.regularisation.longest_step:
                 y.scale(self.regularisation.longest_step / length)
+        if self.part is not None:
+            y.scale(self.part(y))
 
     def inspect(self, matrix: PETSc.Mat) -> None:
         """Factorise a tangent without mass, to count its negative pivots."""
@@ -126,7 +131,7 @@ class InertiaCholesky:
         if self._inner is not None:
             self._inner.destroy()
             self._diagonal.destroy()
-            self._inner = None
+            self._inner = self._diagonal = None
 
     def memory(self) -> dict[str, float]:
         """Return what the next solve inherits from those before; the same on all ranks."""

@@ -120,6 +120,68 @@ class Elastic:
         return self.E * self.nu / ((1.0 + self.nu) * (1.0 - 2.0 * self.nu))
 
 
+@dataclass(frozen=True)
+class Adhesive:
+    """Glue, by traction against separation; see `morphing_wing.forms.adhesive`.
+
+    Parameters
+    ----------
+    stiffness
+        Traction per opening in N/mm^3, greater than 0; perfect glue is the limit of large values.
+    strength
+        Largest traction in MPa that a pull reaches; None: the glue is elastic and never fails.
+    toughness
+        Fracture energy in N/mm (1 N/mm is 1000 J/m^2); given with ``strength``.
+    shear_strength
+        Largest traction in MPa along the face; None: that of a pull.
+    """
+
+    stiffness: float
+    strength: float | None = None
+    toughness: float | None = None
+    shear_strength: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check all constants."""
+        given = {"stiffness": "N/mm^3", "strength": "MPa", "toughness": "N/mm",
+                 "shear_strength": "MPa"}
+        for name, unit in given.items():
+            value = getattr(self, name)
+            if value is not None or name == "stiffness":
+                require(is_number(value) and value > 0, name, value, unit, f"greater than 0 {unit}")
+        both = (self.strength is None) == (self.toughness is None)
+        require(both, "toughness", self.toughness, "N/mm", "given if strength is, and else not")
+        alone = self.shear_strength is not None and self.strength is None
+        require(not alone, "shear_strength", self.shear_strength, "MPa", "given with strength only")
+        if self.fails:
+            require(self.last > 1.0, "toughness", self.toughness, "N/mm",
+                    f"more than {self.onset:.4g} N/mm, what is stored when the strength is reached")
+
+    @property
+    def fails(self) -> bool:
+        """Whether the glue can fail."""
+        return self.strength is not None
+
+    @property
+    def shear_stiffness(self) -> float:
+        """Traction per sliding k_t in N/mm^3."""
+        if self.strength is None or self.shear_strength is None:
+            return self.stiffness
+        return self.stiffness * (self.shear_strength / self.strength) ** 2
+
+    @property
+    def onset(self) -> float:
+        """Energy e_0 in N/mm stored where the strength is reached."""
+        assert self.strength is not None
+        return self.strength**2 / (2.0 * self.stiffness)
+
+    @property
+    def last(self) -> float:
+        """The lambda_f at which the glue has let go."""
+        assert self.toughness is not None
+        return self.toughness / self.onset
+
+
 def _check_density(material: Yeoh | Elastic) -> None:
     value = material.density
     require(is_number(value) and value > 0, "density", value, "kg/m^3", "greater than 0 kg/m^3")

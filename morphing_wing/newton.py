@@ -76,6 +76,9 @@ class Newton:
         of stiff parts is larger, the last step decides, see `NewtonResult`.
     before_tangent
         Called before each tangent with the number of the iteration in the solve.
+    admissible
+        Called with the unknowns x and a step, which leads to x - step: returns which part of it to
+        take.
     """
 
     def __init__(
@@ -87,16 +90,21 @@ class Newton:
         max_iterations: int = 25,
         relative_tolerance: float = 1e-9,
         before_tangent: Callable[[int], None] | None = None,
+        admissible: Callable[[PETSc.Vec, PETSc.Vec], float] | None = None,
     ) -> None:
         blas.check()
         self.system = system
         self.relative_tolerance = relative_tolerance
         # A strong reference to a method of the scene that owns this solver would be a cycle.
         self._before_tangent = before_tangent and weakref.WeakMethod(before_tangent)
+        self._admissible = admissible and weakref.WeakMethod(admissible)
         self._tolerance = 0.0
         self._b = system.x.duplicate()
         self._x = system.x.duplicate()
         self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
+        if admissible is not None:
+            me = weakref.proxy(self)
+            self.factor.part = lambda step: me._admissible()(me._snes.getSolution(), step)
         self._snes = self._create(prefix, max_iterations)
         register(self, system.comm, self.factor, self._snes)
 
@@ -152,6 +160,12 @@ class Newton:
             residual=self._snes.getFunctionNorm(),
             negative_pivots=self.factor.surplus,
         )
+
+    def renew(self) -> None:
+        """Take the system's new matrix, whose pattern may be another."""
+        self.factor.destroy()
+        me = weakref.proxy(self)
+        self._snes.setJacobian(lambda *a: me._jacobian(*a), self.system.matrix)
 
     def _words(self, reason: int) -> str:
         if reason > 0:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Restart", "read", "restart_file", "write"]
 
-_FORMAT = 2
+_FORMAT = 3
 _ROW = [f.name for f in dataclasses.fields(State) if f.name not in ("fields", "scene")]
 
 
@@ -50,7 +50,7 @@ class Restart:
 
     states: list[State]
     standing: Standing
-    memory: dict[str, float]
+    memory: dict[str, Any]
     seconds: float
 
     def check(self, targets: Sequence[Load]) -> None:
@@ -99,7 +99,7 @@ def write(
         "standing": dataclasses.asdict(standing),
         "seconds": seconds,
     }
-    functions = [block.function for block in scene.system.blocks]
+    functions = [block.function for block in scene.kept_blocks]
     arrays = {f.name: _gathered(f, f.x.array) for f in functions}
 
     def save(file: pathlib.Path) -> None:
@@ -121,7 +121,7 @@ def read(place: str | os.PathLike, scene: Scene) -> Restart:
     differs = _first_difference(head["fingerprint"], _fingerprint(scene))
     if differs:
         raise InputError(f"{file}: must be of the scene to resume, but {differs}")
-    functions = [block.function for block in scene.system.blocks]
+    functions = [block.function for block in scene.kept_blocks]
     standing = Standing(**head["standing"])
     states = [State(**row) for row in head["states"]]
     states[-1].fields = {f.name: _scattered(f, arrays[f.name]) for f in functions}
@@ -150,7 +150,7 @@ def _content(file: pathlib.Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]
 def _fingerprint(scene: Scene) -> dict[str, Any]:
     """Return what must agree, as it reads after a way through JSON."""
     found = {"scene": scene.name, "fidelity": scene.fidelity, **scene.description()}
-    for block in scene.system.blocks:
+    for block in scene.kept_blocks:
         mesh = block.function.function_space.mesh
         n_cells = mesh.topology.index_map(mesh.topology.dim).size_global
         found[f"cells of {block.function.name}"] = n_cells

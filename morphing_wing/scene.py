@@ -6,14 +6,18 @@ import os
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from mpi4py import MPI
+from petsc4py import PETSc
 
 from . import compat
 from . import restart as restart_files
+from .blocks import Block
+from .contact import Contact
 from .errors import InputError
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
@@ -21,6 +25,9 @@ from .path import Path, State
 from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
 from .targets import load_targets
+
+MOST_ROUNDS = 6
+"""Solves of one load step between which the pairs in contact may change."""
 
 
 class Scene(ABC):
@@ -36,6 +43,8 @@ class Scene(ABC):
         What, how finely, and on which ranks.
     multiplicity
         How often the modelled part stands in the whole: 2 for a half model.
+    contact
+        What may touch; None: nothing does, or its forces are left out.
     """
 
     name = "scene"
@@ -45,6 +54,7 @@ class Scene(ABC):
     multiplicity = 1
 
     system: EquilibriumSystem
+    contact: Contact | None = None
 
     def __init__(self, fidelity: str, comm: MPI.Comm | None) -> None:
         self.fidelity = fidelity
@@ -62,6 +72,11 @@ class Scene(ABC):
     def dofs(self) -> int:
         """Global number of unknowns."""
         return self.system.size
+
+    @property
+    def kept_blocks(self) -> list[Block]:
+        """Blocks whose functions are kept with a state; what is a rank's own follows from them."""
+        return [block for block in self.system.blocks if not block.local]
 
     @cached_property
     def newton(self) -> Newton:
@@ -128,8 +143,19 @@ class Scene(ABC):
 
     def solve(self) -> NewtonResult:
         """Find the equilibrium of the present loads from the present state."""
+        if self.contact is not None and self.contact.prepare(self.system):
+            self.newton.renew()
         self._largest_force = max(self._largest_force, self._load_force())
-        return self.newton.solve(self._largest_force)
+        result = self.newton.solve(self._largest_force)
+        iterations, rounds = result.iterations, 1
+        while result.converged and self.contact is not None and self.contact.review(self.system):
+            self.newton.renew()
+            if rounds == MOST_ROUNDS:
+                reason = f"what touches what still changed after {rounds} solves"
+                return replace(result, converged=False, reason=reason, iterations=iterations)
+            result = self.newton.solve(self._largest_force)
+            iterations, rounds = iterations + result.iterations, rounds + 1
+        return replace(result, iterations=iterations)
 
     def unknowns(self) -> list[np.ndarray]:
         """Return copies of the rank-local values of all functions."""
@@ -144,6 +170,10 @@ class Scene(ABC):
         """Take the present state as converged."""
         for iterate in self._iterates():
             iterate.accept()
+
+    def admissible(self, x: PETSc.Vec, step: PETSc.Vec) -> float:
+        """Return which part of a Newton step, from x to x - step, to take."""
+        return 1.0 if self.contact is None else self.contact.admissible(self.system, x, step)
 
     def before_tangent(self, iteration: int) -> None:
         """Tell all iterates that a tangent is about to be assembled."""
@@ -169,22 +199,30 @@ class Scene(ABC):
             negative_pivots=result.negative_pivots,
             step_seconds=seconds,
             requested=requested,
-            fields={b.function.name: b.function.x.array.copy() for b in self.system.blocks},
+            fields={b.function.name: b.function.x.array.copy() for b in self.kept_blocks},
         )
 
     def show(self, state: State) -> None:
         """Copy a state's fields into the functions."""
-        self.set_unknowns([state.fields[b.function.name] for b in self.system.blocks])
+        for block in self.kept_blocks:
+            block.function.x.array[:] = state.fields[block.function.name]
+        self.system.share()
 
     # -- for restarts -------------------------------------------------------------------------
 
-    def memory(self) -> dict[str, float]:
+    def memory(self) -> dict[str, Any]:
         """Return what a next step inherits beside loads and unknowns; the same on all ranks."""
-        own = {"external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+        own: dict[str, Any] = {
+            "external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+        if self.contact is not None:
+            own["facet_of_node"] = self.contact.memory()
         return own | self.newton.factor.memory()
 
-    def recall(self, memory: Mapping[str, float]) -> None:
+    def recall(self, memory: Mapping[str, Any]) -> None:
         """Take over what `memory` returned, also in an earlier run."""
+        if self.contact is not None:
+            self.contact.recall(self.system, memory["facet_of_node"])
+            self.newton.renew()
         self._work = memory["external_work_Nmm"]
         self._largest_force = memory["largest_force_N"]
         self.newton.factor.recall(memory)

@@ -1,9 +1,9 @@
 """One set of equations from several finite-element functions and their energies.
 
 Every unknown has one number in one PETSc vector. A block maps its function's rank-local dofs to
-those numbers: one to one for an independent field, many to one for a *shared* block, whose cell
-dofs all stand for the same few unknowns (the six of a glued rib end, say). Energies then couple
-fields by plain UFL: residual and tangent are their derivatives, and the map adds them up.
+those numbers: one to one for an independent field, many to one for a *local* block, whose dofs
+stand for unknowns of others (those of a face and of the rib's end glued to it, say). Energies then
+couple fields by plain UFL: residual and tangent are their derivatives, and the map adds them up.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ import numpy as np
 import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
-from scipy.sparse import coo_matrix
+from scipy.sparse import coo_matrix, csr_matrix
 
 from . import compat
-from .blocks import Block, SharedUnknowns
+from .blocks import Block
 
 
 class EquilibriumSystem:
@@ -29,25 +29,23 @@ class EquilibriumSystem:
     comm
         Communicator of all meshes.
     blocks
-        Independent blocks first, then shared ones.
-    sharing
-        For each shared block, in order, what it stands for.
+        Independent blocks first, then local ones, which stand for nothing until `renumber`.
     """
 
-    def __init__(
-        self, comm: MPI.Comm, blocks: Sequence[Block], sharing: Sequence[SharedUnknowns] = ()
-    ) -> None:
+    def __init__(self, comm: MPI.Comm, blocks: Sequence[Block]) -> None:
         self.comm = comm
         self.blocks = list(blocks)
-        self._n_independent = len(blocks) - len(sharing)
+        self._n_independent = sum(not block.local for block in blocks)
         self._number_independent()
-        for block, shared in zip(self.blocks[self._n_independent :], sharing, strict=True):
-            self._number_shared(block, shared)
+        for block in self.blocks[self._n_independent :]:
+            block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
         self.n_owned = sum(block.n_owned for block in self.blocks[: self._n_independent])
+        self._find_held()
         self.x = PETSc.Vec().createMPI((self.n_owned, None), comm=comm)
         self._lay_out()
         self._build_scatter()
         self._matrix: PETSc.Mat | None = None
+        self._lasting_pattern: Any = None
         self._residuals: list[Any] = []
         self._tangents: list[tuple[int, int, Any]] = []
         self._energies: list[Any] = []
@@ -88,6 +86,35 @@ class EquilibriumSystem:
         if self._matrix is None:
             self._matrix = self._create_matrix()
 
+    def renumber(self, block: Block, numbers: np.ndarray) -> None:
+        """Let a local block's dofs stand for other unknowns. Collective; the matrix is a new one.
+
+        Parameters
+        ----------
+        block
+            The block; its function then holds the present values of those unknowns.
+        numbers
+            Global number of each local dof, -1 for one that stands for nothing.
+        """
+        block.numbers = numbers
+        block.function.x.array[:] = 0.0
+        for old in (self._scatter, self._local, self._matrix):
+            if old is not None:
+                old.destroy()
+        self._lay_out()
+        self._build_scatter()
+        self._matrix = None
+        if self._tangents:
+            self._matrix = self._create_matrix()
+        self.share()
+
+    def share(self) -> None:
+        """Hand the independent blocks' values on to the local ones. Collective."""
+        x = self.x.duplicate()
+        self.push(x)
+        self.pull(x)
+        x.destroy()
+
     @property
     def matrix(self) -> PETSc.Mat:
         """The one matrix of this system."""
@@ -105,8 +132,10 @@ class EquilibriumSystem:
         """Copy unknowns from the vector into all functions, ghosts included."""
         self._scatter.scatter(x, self._local, addv=False, mode=PETSc.ScatterMode.FORWARD)
         values = self._local.getArray(readonly=True)
-        for block, (positions, source) in zip(self.blocks, self._sources, strict=True):
+        for block, (positions, source) in zip(self.blocks, self._pulled, strict=True):
             block.function.x.array[positions] = values[source]
+            if block.refresh is not None:
+                block.refresh()
 
     def push(self, x: PETSc.Vec) -> None:
         """Copy the functions' owned values into the vector."""
@@ -120,7 +149,7 @@ class EquilibriumSystem:
         """Add rank-local arrays of the blocks (None: nothing) into a zeroed vector."""
         self._local.set(0.0)
         values = self._local.getArray()
-        for array, (positions, source) in zip(local, self._sources, strict=True):
+        for array, (positions, source) in zip(local, self._added, strict=True):
             if array is not None:
                 np.add.at(values, source, array[positions])
         out.set(0.0)
@@ -176,23 +205,16 @@ class EquilibriumSystem:
             block.function.x.array[:] = values
             start += block.n_owned
 
-    def _number_shared(self, block: Block, shared: SharedUnknowns) -> None:
-        block.numbers = np.full(len(block.function.x.array), -1, dtype=np.int64)
-        source = self.blocks[shared.of]
-        free = self._free(source)
-        dofmap = block.function.function_space.dofmap
-        for masters, cells in zip(shared.masters, shared.cells, strict=True):
-            found = self.comm.allgather(free[masters] if len(masters) else np.empty(0, np.int64))
-            numbers = next(numbers for numbers in found if len(numbers))
-            for cell in cells:
-                for point, dof in enumerate(dofmap.cell_dofs(cell)):
-                    first = dof * block.block_size
-                    part = numbers[point * block.block_size :][: block.block_size]
-                    block.numbers[first : first + block.block_size] = part
+    def _find_held(self) -> None:
+        """Find the unknowns that are held: this rank's, and all ranks'."""
+        owned = np.arange(self._first, self._first + self.n_owned)
+        free = [self._free(block) for block in self.blocks[: self._n_independent]]
+        self._constrained_rows = np.setdiff1d(owned, np.concatenate(free)).astype(PETSc.IntType)
+        self._held = np.concatenate(self.comm.allgather(self._constrained_rows))
 
     def _free(self, block: Block) -> np.ndarray:
         numbers = block.numbers.copy()
-        numbers[block.constrained] = -1
+        numbers[np.isin(numbers, self._held) if block.local else block.constrained] = -1
         return numbers
 
     def _lay_out(self) -> None:
@@ -202,7 +224,10 @@ class EquilibriumSystem:
         self._free_numbers = np.concatenate([self._free(block) for block in self.blocks])
 
     def _build_scatter(self) -> None:
-        wanted = np.unique(self._free_numbers[self._free_numbers >= 0]).astype(PETSc.IntType)
+        # Local blocks are told of what is held; their energies do no work on it.
+        seen = [block.numbers if block.local else self._free(block) for block in self.blocks]
+        wanted = np.unique(np.concatenate(seen))
+        wanted = wanted[wanted >= 0].astype(PETSc.IntType)
         self._local = PETSc.Vec().createSeq(len(wanted))
         self._scatter = PETSc.Scatter().create(
             self.x,
@@ -210,33 +235,15 @@ class EquilibriumSystem:
             self._local,
             PETSc.IS().createStride(len(wanted), 0, 1, comm=MPI.COMM_SELF),
         )
-        self._sources = []
-        for start, end in self._spans:
-            numbers = self._free_numbers[start:end]
-            positions = np.nonzero(numbers >= 0)[0]
-            self._sources.append((positions, np.searchsorted(wanted, numbers[positions])))
-        owned = np.arange(self._first, self._first + self.n_owned)
-        self._constrained_rows = np.setdiff1d(
-            owned,
-            np.concatenate([self._free(b) for b in self.blocks[: self._n_independent]]),
-        ).astype(PETSc.IntType)
+        free = [self._free_numbers[start:end] for start, end in self._spans]
+        self._pulled, self._added = (
+            [(np.flatnonzero(part >= 0), np.searchsorted(wanted, part[part >= 0]))
+             for part in parts] for parts in (seen, free))
 
     # -- the matrix ---------------------------------------------------------------------------
 
     def _create_matrix(self) -> PETSc.Mat:
-        owned = np.arange(self._first, self._first + self.n_owned)
-        rows, columns = [owned], [owned]
-        for i, j, form in self._tangents:
-            if max(i, j) < self._n_independent:
-                found = self._independent_pattern(i, j, form)
-            else:
-                found = self._shared_pattern(i, j)
-            rows.append(found[0])
-            columns.append(found[1])
-        row, column = np.concatenate(rows) - self._first, np.concatenate(columns)
-        shape = (self.n_owned, self.size)
-        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
-        csr.sort_indices()
+        csr = self._pattern()
         A = PETSc.Mat().createAIJ(
             ((self.n_owned, None), (self.n_owned, None)),
             csr=(
@@ -259,6 +266,28 @@ class EquilibriumSystem:
         start, end = self._spans[b]
         return PETSc.IS().createStride(end - start, start, 1, comm=MPI.COMM_SELF)
 
+    def _pattern(self) -> csr_matrix:
+        """Return this rank's rows of the pattern; that of the independent blocks is found once."""
+        coupled = [max(i, j) >= self._n_independent for i, j, _ in self._tangents]
+        if self._lasting_pattern is None:
+            owned = np.arange(self._first, self._first + self.n_owned)
+            found = [self._independent_pattern(*tangent)
+                     for tangent, is_so in zip(self._tangents, coupled, strict=True) if not is_so]
+            self._lasting_pattern = self._as_rows([(owned, owned), *found])
+        found = [self._local_pattern(i, j) for (i, j, _), is_so in
+                 zip(self._tangents, coupled, strict=True) if is_so]
+        csr = self._lasting_pattern + self._as_rows(found) if found else self._lasting_pattern
+        csr.sort_indices()
+        return csr
+
+    def _as_rows(self, found: Sequence[tuple[np.ndarray, np.ndarray]]) -> csr_matrix:
+        row = np.concatenate([rows for rows, _ in found]) - self._first
+        column = np.concatenate([columns for _, columns in found])
+        shape = (self.n_owned, self.size)
+        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
+        csr.data[:] = 1  # what stands there often must not overflow to nothing
+        return csr
+
     def _independent_pattern(self, i: int, j: int, form: Any) -> tuple[np.ndarray, np.ndarray]:
         pattern = compat.sparsity(form)
         indptr, indices, _ = pattern.getValuesCSR()
@@ -278,32 +307,28 @@ class EquilibriumSystem:
         """Return the system's number of each dof of a block, in its own global numbering."""
         return np.concatenate(self.comm.allgather(self._of_rows(b)))
 
-    def _shared_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
-        left, right = self.blocks[i], self.blocks[j]
-        shared = left if i >= self._n_independent else right
-        points = np.nonzero(shared.numbers.reshape(-1, shared.block_size)[:, 0] >= 0)[0]
-        dofmap = shared.function.function_space.dofmap
-        n_cells = dofmap.index_map.size_local + dofmap.index_map.num_ghosts
-        rows, columns = [], []
-        for cell in range(n_cells):
-            if np.isin(dofmap.cell_dofs(cell), points).any():
-                row, column = (_cell_numbers(block, self._free(block), cell)
-                               for block in (left, right))
-                grid = np.meshgrid(row[row >= 0], column[column >= 0], indexing="ij")
-                rows.append(grid[0].ravel())
-                columns.append(grid[1].ravel())
-        empty = np.empty(0, dtype=np.int64)
-        row, column = (np.concatenate([empty, *part]) for part in (rows, columns))
-        everything = self.comm.allgather((row, column))
-        row, column = (np.concatenate([part[k] for part in everything]) for k in (0, 1))
+    def _local_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
+        assert i == j, "energies couple a local block to others by its unknowns alone"
+        numbers = self._cell_numbers(self.blocks[i])
+        numbers = numbers[(numbers >= 0).any(axis=1)]
+        shape = (*numbers.shape, numbers.shape[1])
+        row = np.broadcast_to(numbers[:, :, None], shape).ravel()
+        column = np.broadcast_to(numbers[:, None, :], shape).ravel()
+        present = (row >= 0) & (column >= 0)
+        pairs = np.unique(np.stack([row[present], column[present]]), axis=1)
+        row, column = np.concatenate(self.comm.allgather(pairs), axis=1)
         mine = (row >= self._first) & (row < self._first + self.n_owned)
         return row[mine], column[mine]
 
-
-def _cell_numbers(block: Block, numbers: np.ndarray, cell: int) -> np.ndarray:
-    dofs = block.function.function_space.dofmap.cell_dofs(cell)
-    size = block.block_size
-    return numbers[(dofs[:, None] * size + np.arange(size)).ravel()]
+    def _cell_numbers(self, block: Block) -> np.ndarray:
+        """Return the numbers of each local cell's unknowns, -1 for what is held or nothing."""
+        dofmap, mesh = block.function.function_space.dofmap, block.function.function_space.mesh
+        index_map = mesh.topology.index_map(mesh.topology.dim)
+        n_cells = index_map.size_local + index_map.num_ghosts
+        nodes = np.array([dofmap.cell_dofs(cell) for cell in range(n_cells)], dtype=np.int64)
+        size = block.block_size
+        dofs = nodes.reshape(n_cells, dofmap.dof_layout.num_dofs, 1) * size + np.arange(size)
+        return self._free(block)[dofs.reshape(n_cells, dofs.shape[1] * size)]
 
 
 def _derivative(form: Any, function: Any, number: int) -> Any | None:

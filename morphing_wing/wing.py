@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -24,13 +24,13 @@ from .frame import BeamFrame, turned_x
 from .geometry.frame import join
 from .geometry.wing import WingGeometry
 from .geometry.wing_mesh import WingMeshing, wing_mesh
-from .glue import Glue, with_glued_faces
+from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
-from .materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
+from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
-from .pocket import Pocket
+from .pocket import in_pocket
 from .scene import Scene, choose_fidelity
 from .system import EquilibriumSystem
 from .tension import check_tension
@@ -67,6 +67,11 @@ class Wing(Scene):
         Communicator; all ranks of MPI by default.
     meshing, element
         Replace those of the fidelity.
+    contact
+        Whether the pocket's sides and the ribs press against each other. Without, ``contact`` in
+        the path's table says from where on they pass through each other.
+    adhesive
+        Law of the glue; None: elastic with the geometry's ``glue_stiffness``.
     options_prefix
         Prefix of this scene's PETSc options.
 
@@ -89,6 +94,8 @@ class Wing(Scene):
         meshing: WingMeshing | None = None,
         element: str | None = None,
         options_prefix: str = "wing_",
+        contact: bool = True,
+        adhesive: Adhesive | None = None,
     ) -> None:
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
@@ -99,22 +106,26 @@ class Wing(Scene):
         self._options_prefix = options_prefix
         self.ribs: BeamFrame | None = None
         self.glue: Glue | None = None
-        grid = wing_mesh(geometry, meshing or rung.meshing)
-        if geometry.rib is not None:
-            grid = with_glued_faces(grid, geometry)
         self.body = Elastomer(
-            self.comm, grid, elastomer, element_named(element or rung.element),
-            clamped=("root",), thin=("skin",), prestretch=prestretch,
+            self.comm, wing_mesh(geometry, meshing or rung.meshing), elastomer,
+            element_named(element or rung.element), clamped=("root",), thin=("skin",),
+            prestretch=prestretch,
         )
-        blocks, sharing = [self.body.block], []
+        blocks, bars = [self.body.block], None
         if geometry.rib is not None:
             frames = [geometry.rib.frame().placed(root) for root in geometry.rib_roots()]
             self.ribs = BeamFrame(self.comm, join(frames), resin)
-            self.glue = Glue(self.body, self.ribs, geometry)
-            blocks += [Block(self.ribs.function), self.glue.block]
-            sharing = [self.glue.shared(of=1)]
-        self.system = EquilibriumSystem(self.comm, blocks, sharing)
-        self.pocket = Pocket(self.body, self.ribs, geometry) if self.has_skin else None
+            bars = Block(self.ribs.function)
+            law = adhesive or Adhesive(geometry.glue_stiffness)
+            self.glue = Glue(self.body, self.ribs, geometry, law)
+            blocks += [bars, self.glue.block]
+        self.pocket = in_pocket(self.body, self.ribs, bars) if self.has_skin else None
+        self.contact = self.pocket if contact else None
+        if self.contact is not None:
+            blocks.append(self.contact.block)
+        self.system = EquilibriumSystem(self.comm, blocks)
+        if self.glue is not None:
+            self.glue.join(self.system, bars)
 
     @property
     def has_skin(self) -> bool:
@@ -201,10 +212,27 @@ class Wing(Scene):
             "element": self.body.element.name,
         }
 
+    def accept(self) -> None:
+        """Take the present state as converged."""
+        super().accept()
+        if self.glue is not None:
+            self.glue.accept()
+
+    def memory(self) -> dict[str, Any]:
+        """Return what a next step inherits beside loads and unknowns; the same on all ranks."""
+        broken = self.glue is not None and self.glue.law.fails
+        return super().memory() | ({"glue": self.glue.history.tolist()} if broken else {})
+
+    def recall(self, memory: Mapping[str, Any]) -> None:
+        """Take over what `memory` returned, also in an earlier run."""
+        super().recall(memory)
+        if "glue" in memory:
+            self.glue.recall(memory["glue"])
+
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
-        return [part.iterate for part in self._parts() if part.iterate]
+        return [part.iterate for part in self._parts() if part.iterate is not None]
 
     def _newton(self) -> Newton:
         return Newton(
@@ -214,6 +242,7 @@ class Wing(Scene):
             expected_negative=self.body.n_pressures(),
             max_iterations=60 if self.has_skin else 25,
             before_tangent=self.before_tangent,
+            admissible=self.admissible if self.contact is not None else None,
         )
 
     def _regularisation(self) -> Regularisation | None:
@@ -229,7 +258,7 @@ class Wing(Scene):
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         self._chambers = Chambers(self.body, in_use)
         self.loads = dict(self._chambers.pressures)
-        energies = self._stored() + self._chambers.potentials
+        energies = [part.energy for part in self._parts()] + self._chambers.potentials
         if "cable_N" in in_use:
             tension = fem.Constant(self.ribs.mesh, compat.scalar_type(0.0))
             self.loads["cable_N"] = [tension]
@@ -248,11 +277,12 @@ class Wing(Scene):
         return energies, [part.tangent_correction for part in self._parts()]
 
     def _stored(self) -> list[Any]:
-        return [part.energy for part in self._parts()]
+        return [getattr(part, "stored", part.energy) for part in self._parts()]
 
     def _parts(self) -> list[Any]:
         """Return what stores energy, in the order of the blocks."""
-        return [part for part in (self.body, self.ribs, self.glue) if part is not None]
+        parts = (self.body, self.ribs, self.glue, self.contact)
+        return [part for part in parts if part is not None]
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()
@@ -282,9 +312,16 @@ class Wing(Scene):
             found["chord_line_deg"] = float(line - spar)
             found["spar_twist_deg"] = spar
         found |= ribs
+        if self.glue is not None:
+            found |= self.glue.measures()
         if self.pocket is not None:
             found["gap_mm"] = self.pocket.smallest_gap()
-            found["contact"] = float(found["gap_mm"] < 0.0)
+            touching = float(found["gap_mm"] < 0.0)
+            if self.contact is None:
+                found["contact"] = touching
+            else:
+                found |= {"touching": touching, "contact_force_N": self.contact.total_force(),
+                          "penetration_mm": self.contact.penetration()}
         return found
 
     def _trailing_edge(self) -> tuple[float, float]:

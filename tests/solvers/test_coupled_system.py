@@ -120,8 +120,8 @@ def test_corrections_leave_the_residual_alone(wing):
     np.testing.assert_array_equal(first.array, second.array)
 
 
-def test_glued_cells_move_with_the_ribs_ends(wing):
+def test_glued_points_move_with_the_ribs_ends(wing):
     root, tail = (wing.ribs.end_values(kind, 0) for kind in ("root", "tail"))
-    feet = wing.glue.function.x.array.reshape(-1, 6)
-    moved = feet[np.abs(feet).max(axis=1) > 0.0]
-    assert {tuple(row) for row in moved} == {tuple(root), tuple(tail)}
+    size = wing.glue.function.function_space.dofmap.index_map_bs
+    feet = wing.glue.function.x.array.reshape(-1, size)[:, -6:]
+    assert {tuple(row) for row in feet} == {tuple(root), tuple(tail)}

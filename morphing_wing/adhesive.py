@@ -1,0 +1,160 @@
+"""Glued patches between an elastomer's facets and rigid feet, point by point."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import ufl
+from mpi4py import MPI
+from scipy.spatial.transform import Rotation
+
+from .forms.adhesive import adhesive_energy, damage, foot_displacement, separation_energies
+from .forms.beam import rotation
+from .forms.mixed_point import mixed_point_correction
+from .geometry.patches import PatchPoints
+from .iterate import Iterate
+from .materials import Adhesive
+from .points import PointMesh
+from .system import EquilibriumSystem
+
+
+class GluedPatches:
+    """The adhesive's energy over integration points; see `morphing_wing.forms.adhesive`.
+
+    Parameters
+    ----------
+    comm
+        Communicator.
+    points
+        Integration points of all patches; the same on every rank.
+    origins : (n, 3) array
+        Point of each one's foot that its translation is that of, mm.
+    law
+        Stiffness, and strength and fracture energy where it may fail.
+
+    Attributes
+    ----------
+    block
+        The points' unknowns: displacements of a facet's nodes, translation and rotation of a foot.
+    energy, stored
+        UFL functionals in N mm: the potential of the step, and what is stored in a converged state.
+    tangent_correction, iterate
+        Bilinear form that makes the tangent robust, and the iterates that it needs.
+    """
+
+    def __init__(
+        self, comm: MPI.Comm, points: PatchPoints, origins: np.ndarray, law: Adhesive
+    ) -> None:
+        self._comm, self.law, self._all = comm, law, points
+        n, size = points.shapes.shape
+        bounds = np.linspace(0, n, comm.size + 1).astype(int)
+        self._mine = slice(bounds[comm.rank], bounds[comm.rank + 1])
+        self._origins = origins[self._mine]
+        self.history = np.ones(n)
+        self.utilisation = np.zeros(n)
+        self._mesh = PointMesh(bounds[comm.rank + 1] - bounds[comm.rank], 3 * size + 6, size + 11,
+                               "glue")
+        self.function, self.block = self._mesh.function, self._mesh.block
+        self.iterate = Iterate(self.function)
+        self._give()
+        data = self._mesh.data
+        X, origin, normal = (ufl.as_vector([data[size + 3 * k + i] for i in range(3)])
+                             for k in range(3))
+        area, kappa = data[size + 9], data[size + 10]
+
+        def foot(q: Any) -> tuple[Any, Any]:
+            return tuple(ufl.as_vector([q[3 * size + 3 * k + i] for i in range(3)])
+                         for k in range(2))
+
+        def separation(q: Any) -> Any:
+            u = ufl.as_vector([sum(data[a] * q[3 * a + i] for a in range(size)) for i in range(3)])
+            return foot_displacement(X, origin, *foot(q)) - u
+
+        s = separation(self.function)
+        if not law.fails:
+            self.energy = self.stored = self._mesh.sum(
+                0.5 * law.stiffness * area * ufl.inner(s, s))
+            sound: Any = 1.0
+        else:
+            turned = rotation(foot(self.function)[1]) * normal
+            e, closing = separation_energies(s, turned, law.stiffness, law.shear_stiffness)
+            sound = 1.0 - damage(kappa, law.last)
+            self.energy = self._mesh.sum(
+                area * (adhesive_energy(e, kappa, law.onset, law.last) + closing))
+            self.stored = self._mesh.sum(area * (sound * e + closing))
+        self.tangent_correction = self._mesh.sum(mixed_point_correction(
+            lambda q: [separation(q)[i] for i in range(3)], [sound * law.stiffness * area] * 3,
+            self.function, self.iterate.last, self.iterate.step))
+
+    def number(
+        self, system: EquilibriumSystem, face_numbers: np.ndarray, foot_numbers: np.ndarray
+    ) -> None:
+        """Tell the system whose unknowns the points share. Collective.
+
+        Parameters
+        ----------
+        system
+            Has this object's block.
+        face_numbers : (n, nodes of a facet, 3) array
+            Numbers of the displacements of each point's facet.
+        foot_numbers : (n, 6) array
+            Numbers of translation and rotation of its foot.
+        """
+        rows = np.concatenate([face_numbers.reshape(len(face_numbers), -1), foot_numbers], axis=1)
+        system.renumber(self.block, self._mesh.as_dofs(rows[self._mine], fill=-1))
+
+    # -- damage -------------------------------------------------------------------------------
+
+    def accept(self) -> None:
+        """Take the present state as converged: what broke stays broken. Collective."""
+        if not self.law.fails:
+            return
+        self.utilisation = self._gathered(self._lambda())
+        self.history = np.maximum(self.history, self.utilisation)
+        self._give()
+
+    def recall(self, history: np.ndarray) -> None:
+        """Take over the ``history`` of an earlier run."""
+        self.history = np.array(history, dtype=float)
+        self._give()
+
+    def damage(self) -> np.ndarray:
+        """Return each point's damage, 0 to 1, the same on every rank."""
+        last, kappa = self.law.last, self.history
+        return np.where(kappa < last, last * (kappa - 1.0) / (kappa * (last - 1.0)), 1.0)
+
+    def dissipated(self) -> float:
+        """Return the energy in N mm that the damage took."""
+        if not self.law.fails:
+            return 0.0
+        last, kappa = self.law.last, np.minimum(self.history, self.law.last)
+        spent = 1.0 + ((last - 1.0) ** 2 - (last - kappa) ** 2) / (last - 1.0)
+        held = (1.0 - self.damage()) * kappa**2
+        return float(np.sum(self._all.area * self.law.onset * (spent - held)))
+
+    def _lambda(self) -> np.ndarray:
+        """Return lambda at this rank's points."""
+        q, part = self._mesh.values(), self._mine
+        size = self._all.shapes.shape[1]
+        nodes, translation = q[:, : 3 * size].reshape(-1, size, 3), q[:, 3 * size : 3 * size + 3]
+        turn = Rotation.from_rotvec(q[:, 3 * size + 3 :].reshape(-1, 3)) if len(q) else None
+        if turn is None:
+            return np.empty(0)
+        arm = self._all.place[part] - self._origins
+        u = np.einsum("na,nai->ni", self._all.shapes[part], nodes)
+        s = translation + turn.apply(arm) - arm - u
+        along = np.sum(s * turn.apply(self._all.normal[part]), axis=1)
+        across = np.sum(s * s, axis=1) - along**2
+        law = self.law
+        e = 0.5 * (law.stiffness * np.maximum(along, 0.0) ** 2 + law.shear_stiffness * across)
+        return np.sqrt(np.maximum(e, 0.0) / law.onset)
+
+    def _gathered(self, values: np.ndarray) -> np.ndarray:
+        return np.concatenate(self._comm.allgather(values))
+
+    def _give(self) -> None:
+        part, points = self._mine, self._all
+        self._mesh.set_data(np.concatenate(
+            [points.shapes[part], points.place[part], self._origins, points.normal[part],
+             points.area[part, None], self.history[part, None]], axis=1))

@@ -1,0 +1,272 @@
+"""Contact between found pairs: nodes of one side against facets of another.
+
+Which facet a node is opposed to is searched before every load step and after it converged; where
+that matters, the step goes on from there. Only pairs that are near have numbers in the system, so
+that what is far apart costs nothing in the matrix.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import ufl
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from . import compat
+from .forms.contact import contact_energy, contact_gap, penetration
+from .forms.mixed_point import mixed_point_correction
+from .geometry.facets import closest, gaps, project, shape_functions
+from .iterate import Iterate
+from .points import PointMesh
+from .surface import Nodes, Surface
+from .system import EquilibriumSystem
+
+REACH = 3.0
+"""Pairs nearer than this (mm) come into the matrix; those nearer than half of it must be there."""
+
+DEEPEST = 0.1
+"""How far (mm) one Newton step may lead a node in, if none is deeper already."""
+
+SMALLEST_PART = 1.0 / 16.0
+"""Part of a Newton step that is taken however deep it leads."""
+
+CLOSE = 1e-4
+"""Differences of a gap (mm) that are none."""
+
+
+@dataclass(frozen=True)
+class Opposed:
+    """Nodes that must not enter a surface.
+
+    Attributes
+    ----------
+    nodes
+        The nodes.
+    surface
+        The surface.
+    area : (n,) array
+        What each node stands for, mm^2; zero for one that is left out.
+    radius : (n,) array
+        The distance in mm that each keeps.
+    """
+
+    nodes: Nodes
+    surface: Surface
+    area: np.ndarray
+    radius: np.ndarray
+
+
+class Contact:
+    """Frictionless contact as a penalty potential, see `morphing_wing.forms.contact`.
+
+    Parameters
+    ----------
+    comm
+        Communicator.
+    sides
+        What is opposed to what. Nodes that belong to the surface, or lie in it, when nothing is
+        deformed are left out; those nearer than their radius keep the distance that they have.
+    stiffness
+        Pressure per penetration, N/mm^3.
+
+    Attributes
+    ----------
+    block
+        The pairs' unknowns.
+    energy
+        UFL functional in N mm.
+    tangent_correction, iterate
+        Bilinear form that makes the tangent robust, and the iterates that it needs.
+    """
+
+    def __init__(self, comm: MPI.Comm, sides: Sequence[Opposed], stiffness: float) -> None:
+        self._comm, self._sides = comm, list(sides)
+        facet_size = self._sides[0].surface.facets.shape[1]
+        self._degree = 1 if facet_size == 4 else 2
+        self._keep = [self._distances(side) for side in self._sides]
+        self._weight = [stiffness * np.where(np.isnan(keep), 0.0, side.area)
+                        for side, keep in zip(self._sides, self._keep, strict=True)]
+        n = sum(len(side.area) for side in self._sides)
+        bounds = np.linspace(0, n, comm.size + 1).astype(int)
+        self._mine = slice(bounds[comm.rank], bounds[comm.rank + 1])
+        self._facet = np.full(n, -1)
+        self._count = bounds[comm.rank + 1] - bounds[comm.rank]
+        self._points = PointMesh(self._count, 3 + 3 * facet_size, 3 * facet_size + 14, "pairs")
+        self._place(np.zeros(self._count, dtype=bool))
+        self.function, self.block = self._points.function, self._points.block
+        self.block.refresh = self._refresh
+        self.iterate = Iterate(self.function)
+        data = self._points.data
+        weight = data[3 * facet_size + 13]
+
+        def gap(q: Any) -> Any:
+            point, place, first, second = _kinematics(q, data, facet_size)
+            return contact_gap(point, place, first, second, data[3 * facet_size + 12])
+
+        self.energy = self._points.sum(contact_energy(gap(self.function), weight))
+        self.tangent_correction = self._points.sum(mixed_point_correction(
+            lambda q: [penetration(gap(q))], [weight], self.function, self.iterate.last,
+            self.iterate.step))
+        self._force = self._points.sum(weight * penetration(gap(self.function)))
+
+    # -- which facet opposes which node -------------------------------------------------------
+
+    def smallest_gap(self) -> float:
+        """Return the smallest distance in mm of present positions, negative inside. Collective."""
+        return min(float(gap.min(initial=np.inf)) for _, gap, _ in self._found())
+
+    def prepare(self, system: EquilibriumSystem) -> bool:
+        """Find the pairs for a load step from the present positions.
+
+        Returns whether the system's matrix is a new one. Collective.
+        """
+        def missing(found: np.ndarray, gap: np.ndarray, _: np.ndarray) -> np.ndarray:
+            return (gap < 0.5 * REACH) & (found != self._facet)
+
+        return self._take(system, missing)
+
+    def review(self, system: EquilibriumSystem) -> bool:
+        """Find the pairs anew if the present positions show that those in use missed something.
+
+        Returns whether the system's matrix is a new one. Collective.
+        """
+        def missed(found: np.ndarray, gap: np.ndarray, held: np.ndarray) -> np.ndarray:
+            inside = gap < 0.0
+            return inside & (found != self._facet) & ~np.isclose(held, gap, rtol=0.0, atol=CLOSE)
+
+        return self._take(system, missed)
+
+    def _take(self, system: EquilibriumSystem, wrong: Callable[..., np.ndarray]) -> bool:
+        found, gap, held = (np.concatenate(part) for part in zip(*self._found(), strict=True))
+        # All ranks see the same positions; what one decides must be what all decide.
+        changed = self._comm.bcast(bool(wrong(found, gap, held).any()), root=0)
+        if changed:
+            self._facet = np.where(gap < REACH, found, -1)
+            self._renumber(system)
+        return changed
+
+    def admissible(self, system: EquilibriumSystem, x: PETSc.Vec, step: PETSc.Vec) -> float:
+        """Return which part of a Newton step, from x to x - step, to take. Collective.
+
+        What is thrown far through another wall would come back by chance.
+        """
+        system.pull(x)
+        limit, part, moved = max(DEEPEST, self.penetration()), 1.0, x.duplicate()
+        while part > SMALLEST_PART:
+            moved.waxpy(-part, step, x)
+            system.pull(moved)
+            if self.penetration() <= limit:
+                break
+            part /= 2.0
+        system.pull(x)
+        moved.destroy()
+        return part
+
+    def penetration(self) -> float:
+        """Return how deep in mm the deepest node of the present pairs is in. Collective."""
+        used = self._weights > 0.0
+        points = self._X[used] + self._points.values()[used, :3]
+        depth = self._kept[used] - gaps(self._opposed()[used], points, self._xi[used])
+        return float(self._comm.allreduce(depth.max(initial=0.0), op=MPI.MAX))
+
+    def memory(self) -> list[int]:
+        """Return which facet opposes each node: what a next step inherits beside positions."""
+        return self._facet.tolist()
+
+    def recall(self, system: EquilibriumSystem, facets: Sequence[int]) -> None:
+        """Take over what `memory` returned, also in an earlier run. Collective."""
+        self._facet = np.array(facets, dtype=int)
+        self._renumber(system)
+
+    def total_force(self) -> float:
+        """Return the sum of the contact forces' magnitudes in N. Collective."""
+        return compat.assemble_scalar(self._comm, compat.form(self._force))
+
+    def _distances(self, side: Opposed) -> np.ndarray:
+        """Return the distance that each node keeps, NaN for those left out."""
+        at = closest(side.nodes.reference, side.surface.nodes.reference, side.surface.facets)
+        keep = np.minimum(side.radius, at.gap)
+        keep[(np.abs(at.gap) < 1e-6) | (side.area == 0.0)] = np.nan
+        return keep
+
+    def _found(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Return of each side the nodes' facets (-1: none), gaps, and gaps to the facets in use."""
+        result, start = [], 0
+        for side, keep in zip(self._sides, self._keep, strict=True):
+            points, nodes = side.nodes.positions(), side.surface.nodes.positions()
+            at = closest(points, nodes, side.surface.facets)
+            facet = self._facet[start : start + len(points)]
+            held = np.full(len(points), np.inf)
+            paired = np.flatnonzero((facet >= 0) & (facet != at.facet))
+            opposed = nodes[side.surface.facets[facet[paired]]]
+            held[paired] = gaps(opposed, points[paired], project(opposed, points[paired]))
+            result.append((at.facet, *(np.where(np.isnan(keep), np.inf, gap - keep)
+                                       for gap in (at.gap, held))))
+            start += len(points)
+        return result
+
+    def _renumber(self, system: EquilibriumSystem) -> None:
+        size = self.function.function_space.dofmap.index_map_bs
+        table = [np.full((len(side.area), size), -1, dtype=np.int64) for side in self._sides]
+        start = 0
+        for side, rows in zip(self._sides, table, strict=True):
+            facet = self._facet[start : start + len(rows)]
+            used = facet >= 0
+            opposed = side.surface.nodes.numbers[side.surface.facets[facet[used]]]
+            rows[used, :3] = side.nodes.numbers[used]
+            rows[used, 3:] = opposed.reshape(used.sum(), size - 3)
+            start += len(rows)
+        rows = np.concatenate(table)[self._mine]
+        self._place(self._facet[self._mine] >= 0)
+        system.renumber(self.block, self._points.as_dofs(rows, fill=-1))
+        self.iterate.accept()
+
+    # -- what the energy is given -------------------------------------------------------------
+
+    def _place(self, used: np.ndarray) -> None:
+        """Set the reference positions of this rank's pairs, and their weights."""
+        nodes, facets, keep, weight = [], [], [], []
+        start = 0
+        for side, kept, stiffness in zip(self._sides, self._keep, self._weight, strict=True):
+            facet = self._facet[start : start + len(side.area)]
+            nodes.append(side.nodes.reference)
+            facets.append(side.surface.nodes.reference[side.surface.facets[facet]])
+            keep.append(np.nan_to_num(kept))
+            weight.append(np.where(facet >= 0, stiffness, 0.0))
+            start += len(side.area)
+        self._X, self._Y, self._kept, self._weights = (
+            np.concatenate(part)[self._mine] for part in (nodes, facets, keep, weight))
+        self._used, self._xi = used, np.zeros((self._count, 2))
+        self._refresh()
+
+    def _refresh(self) -> None:
+        """Move the places to where the distance is stationary at the present unknowns."""
+        used = self._used
+        points = self._X[used] + self._points.values()[used, :3]
+        self._xi[used] = project(self._opposed()[used], points, self._xi[used])
+        shapes = shape_functions(self._degree, self._xi)
+        place, first, second = (np.einsum("na,nai->ni", N, self._Y) for N in shapes)
+        self._points.set_data(np.concatenate(
+            [*shapes, self._X, place, first, second, self._kept[:, None],
+             self._weights[:, None]], axis=1))
+
+
+    def _opposed(self) -> np.ndarray:
+        """Return the deformed nodes of each pair's facet, (n_pairs, facet nodes, 3)."""
+        return self._Y + self._points.values()[:, 3:].reshape(self._Y.shape)
+
+
+def _kinematics(q: Any, data: Any, n: int) -> tuple[Any, Any, Any, Any]:
+    """Return point, place and tangents of a pair, deformed."""
+    def shown(k: int) -> Any:
+        given = 3 * n + 3 + 3 * k
+        return ufl.as_vector([
+            data[given + i] + sum(data[k * n + a] * q[3 + 3 * a + i] for a in range(n))
+            for i in range(3)])
+
+    point = ufl.as_vector([data[3 * n + i] + q[i] for i in range(3)])
+    return point, shown(0), shown(1), shown(2)

@@ -1,0 +1,160 @@
+"""Points that may touch: nodes of a body's faces or of a frame, the same on every rank."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from . import compat
+from .blocks import Block
+from .elastomer import Elastomer
+from .frame import BeamFrame
+from .geometry.facets import node_areas
+
+
+class Nodes:
+    """Nodes of a function with a displacement, known to every rank in the same order.
+
+    Attributes
+    ----------
+    reference : (n, 3) array
+        Undeformed positions, mm.
+    """
+
+    def __init__(
+        self, comm: MPI.Comm, space: Any, block: Block, dofs: np.ndarray, nodes: np.ndarray
+    ) -> None:
+        """Take the local ``nodes`` of a space, whose displacements are ``dofs`` of the block."""
+        self._comm, self._block = comm, block
+        index_map = space.dofmap.index_map
+        mine = nodes[nodes < index_map.size_local]
+        self._mine = dofs[mine]
+        names = self._gathered(mine + index_map.local_range[0])
+        place = self._gathered(space.tabulate_dof_coordinates()[mine])
+        # An order of places, which no number of ranks changes.
+        self._order = np.lexsort(np.round(place, 6).T + 0.0)
+        self.reference = place[self._order]
+        self._names = names[self._order]
+        self._sorted = np.argsort(self._names)
+
+    @cached_property
+    def numbers(self) -> np.ndarray:
+        """The system's numbers of their displacements, shape (n, 3). Collective."""
+        return self._gathered(self._block.numbers[self._mine])[self._order]
+
+    def displacements(self) -> np.ndarray:
+        """Return the present displacements, shape (n, 3), mm. Collective."""
+        return self._gathered(self._block.function.x.array[self._mine])[self._order]
+
+    def positions(self) -> np.ndarray:
+        """Return the deformed positions, shape (n, 3), mm. Collective."""
+        return self.reference + self.displacements()
+
+    def index_of(self, names: np.ndarray) -> np.ndarray:
+        """Return the rows of nodes by their global numbers in the space."""
+        return self._sorted[np.searchsorted(self._names, names, sorter=self._sorted)]
+
+    def _gathered(self, rows: np.ndarray) -> np.ndarray:
+        return np.concatenate(self._comm.allgather(np.ascontiguousarray(rows)))
+
+
+class Surface:
+    """Some facets of an elastomer body.
+
+    Attributes
+    ----------
+    nodes
+        Their nodes.
+    facets : (k, 4 or 9) int array
+        Rows of ``nodes``, in tensor-product order, normal out of the body.
+    area : (n,) array
+        Each node's share of the area, mm^2.
+    names : (n,) array
+        Global numbers of the nodes in the body's displacement space.
+    """
+
+    def __init__(self, body: Elastomer, pairs: np.ndarray) -> None:
+        """Take the facets given as pairs (cell of the grid, facet of the cell)."""
+        space, dofs = body.displacement_space()
+        original = compat.original_cells(body.mesh)
+        n_owned = body.mesh.topology.index_map(3).size_local
+        local = {int(cell): i for i, cell in enumerate(original[:n_owned])}
+        points = compat.interpolation_points(space)
+        x = space.tabulate_dof_coordinates()
+        found, order = [], []
+        for number, (cell, facet) in enumerate(pairs):
+            if int(cell) in local:
+                cell_nodes = space.dofmap.cell_dofs(local[int(cell)])
+                found.append(_outward(cell_nodes, points, int(facet), x))
+                order.append(number)
+        width = (body.element.degree + 1) ** 2
+        rows = np.array(found, dtype=np.int32).reshape(-1, width)
+        index_map = space.dofmap.index_map
+        names = index_map.local_to_global(rows.ravel()).reshape(-1, width)
+        everything = body.comm.allgather((np.array(order, dtype=int), names))
+        order, names = (np.concatenate([part[i] for part in everything]) for i in (0, 1))
+        names = names[np.argsort(order)]
+        # A rank may own a node of a facet whose cell another one owns.
+        lower, upper = index_map.local_range
+        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
+        self.nodes = Nodes(body.comm, space, body.block, dofs.reshape(-1, 3), mine)
+        self.facets = self.nodes.index_of(names)
+        self.area = node_areas(self.nodes.reference, self.facets)
+        self.names = np.empty(len(self.area), dtype=names.dtype)
+        self.names[self.facets] = names
+
+
+class Bars:
+    """The nodes of a frame's bars, each with its share of a length and its half height.
+
+    Attributes
+    ----------
+    nodes
+        The nodes.
+    length
+        The mean share of the bars' length that a node has, mm.
+    radius : (n,) array
+        Half the height of the thickest bar at it, mm.
+    """
+
+    def __init__(self, ribs: BeamFrame, block: Block) -> None:
+        """Take the bars that have a height."""
+        radius, lengths = ribs.frame.half_heights(), ribs.frame.lengths()
+        space = ribs.function.function_space
+        index_map = space.dofmap.index_map
+        n_owned = ribs.mesh.topology.index_map(1).size_local
+        chosen = [cell for cell, bar in enumerate(ribs.bars[:n_owned]) if not np.isnan(radius[bar])]
+        nodes = np.array([space.dofmap.cell_dofs(cell) for cell in chosen], dtype=np.int32)
+        names = index_map.local_to_global(nodes.ravel())
+        radii = np.repeat(radius[ribs.bars[chosen]], 3)
+        names, radii = (np.concatenate(part) for part in zip(
+            *ribs.comm.allgather((names, radii)), strict=True))
+        lower, upper = index_map.local_range
+        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
+        six = np.arange(len(ribs.function.x.array)).reshape(-1, 6)
+        self.nodes = Nodes(ribs.comm, space, block, six[:, :3], mine)
+        n = len(self.nodes.reference)
+        self.length = float(lengths[~np.isnan(radius)].sum()) / n
+        self.radius = np.zeros(n)
+        np.maximum.at(self.radius, self.nodes.index_of(names), radii)
+
+
+def _outward(
+    cell_nodes: np.ndarray, points: np.ndarray, facet: int, x: np.ndarray
+) -> np.ndarray:
+    """Return the nodes of a cell's facet in tensor-product order, normal out of the cell."""
+    axis, side = {0: (2, 0), 1: (1, 0), 2: (0, 0), 3: (0, 1), 4: (1, 1), 5: (2, 1)}[facet]
+    on_facet = np.flatnonzero(np.abs(points[:, axis] - side) < 1e-9)
+    a, b = (i for i in range(3) if i != axis)
+    inside = x[cell_nodes].mean(axis=0)
+    for fast, slow in ((a, b), (b, a)):
+        chosen = on_facet[np.lexsort((points[on_facet, fast], points[on_facet, slow]))]
+        corners = x[cell_nodes[chosen]]
+        side_length = round(len(chosen) ** 0.5)
+        first, second = corners[side_length - 1] - corners[0], corners[-side_length] - corners[0]
+        if np.dot(np.cross(first, second), corners.mean(axis=0) - inside) > 0.0:
+            return cell_nodes[chosen]
+    raise AssertionError("a facet without an outside")
