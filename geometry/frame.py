@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -55,8 +56,15 @@ class Frame:
 
     def stiffness(self, E: float, nu: float) -> np.ndarray:
         """Return EA, GA2, GA3 (N), GJ, EI2, EI3 (N mm^2) of each bar, shape (m, 6)."""
+        return self._of_each_bar(lambda section: section.stiffness(E, nu))
+
+    def areas(self) -> np.ndarray:
+        """Return the area in mm^2 of each bar's cross-section, shape (m,)."""
+        return self._of_each_bar(lambda section: section.area)
+
+    def _of_each_bar(self, value: Callable[[Section], Any]) -> np.ndarray:
         of = [
-            {name: section.stiffness(E, nu) for name, section in sections.items()}
+            {name: value(section) for name, section in sections.items()}
             for sections in self.sections
         ]
         pairs = zip(self.ribs, self.kinds, strict=True)

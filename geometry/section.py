@@ -9,7 +9,11 @@ import numpy as np
 
 
 class Section(Protocol):
-    """Anything that turns Young's modulus and Poisson's ratio into a beam's stiffness."""
+    """Anything with an area that turns Young's modulus and Poisson's ratio into a stiffness."""
+
+    @property
+    def area(self) -> float:
+        """Area of the cross-section in mm^2."""
 
     def stiffness(self, E: float, nu: float) -> np.ndarray:
         """Return EA, GA2, GA3 in N and GJ, EI2, EI3 in N mm^2, shape (6,)."""
@@ -22,9 +26,14 @@ class Rectangle:
     width: float
     depth: float
 
+    @property
+    def area(self) -> float:
+        """Area in mm^2."""
+        return self.width * self.depth
+
     def stiffness(self, E: float, nu: float) -> np.ndarray:
         """Return the beam's stiffness with shear factor 5/6 and Saint-Venant's torsion."""
-        G, A = E / (2.0 * (1.0 + nu)), self.width * self.depth
+        G, A = E / (2.0 * (1.0 + nu)), self.area
         I2, I3 = self.width * self.depth**3 / 12.0, self.depth * self.width**3 / 12.0
         shear, J = 5.0 / 6.0 * G * A, torsion_constant(self.width, self.depth)
         return np.array([E * A, shear, shear, G * J, E * I2, E * I3])
@@ -36,12 +45,17 @@ class Circle:
 
     diameter: float
 
+    @property
+    def area(self) -> float:
+        """Area in mm^2."""
+        return np.pi * self.diameter**2 / 4.0
+
     def stiffness(self, E: float, nu: float) -> np.ndarray:
         """Return the beam's stiffness with shear factor 6 (1 + nu)/(7 + 6 nu).
 
         The factor is Cowper's, Journal of Applied Mechanics 33 (1966) 335-340.
         """
-        G, A = E / (2.0 * (1.0 + nu)), np.pi * self.diameter**2 / 4.0
+        G, A = E / (2.0 * (1.0 + nu)), self.area
         I = np.pi * self.diameter**4 / 64.0  # noqa: E741
         shear = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) * G * A
         return np.array([E * A, shear, shear, G * 2.0 * I, E * I, E * I])
@@ -58,6 +72,11 @@ class Stiffened:
     of: Section
     force: float = 100.0
     moment: float = 1000.0
+
+    @property
+    def area(self) -> float:
+        """Area in mm^2 of the piece itself."""
+        return self.of.area
 
     def stiffness(self, E: float, nu: float) -> np.ndarray:
         """Return the raised stiffness."""

@@ -12,7 +12,15 @@ from .aerofoil import Aerofoil
 from .rib import RibGeometry
 
 _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_thickness",
-            "side_thickness", "nose_length", "foot_height", "foot_width", "tail_bond_length")
+            "side_thickness", "nose_length", "skin_thickness", "foot_height", "foot_width",
+            "tail_bond_length")
+# How the skin may be built, defaults first.
+_OPTIONS = {
+    "skin_root": ("clamped", "free"),
+    "tip_wall": (False, True),
+    "skin_over_spar": (False, True),
+    "skin_slit": ("none", "lower", "trailing_edge"),
+}
 
 
 @dataclass(frozen=True)
@@ -39,7 +47,22 @@ class WingGeometry:
         Solid nose in front of the chambers.
     skin_thickness
         Skin around the trailing edge's pocket; None: no skin. It is as long as the spar, closed
-        where its two sides meet, open at the tip, clamped with the root section.
+        where its two sides meet, open at the tip.
+    skin_root
+        Whether the skin's edge at the root, behind the spar, is "clamped" with the root section
+        or "free".
+    tip_wall
+        Whether an elastomer wall, as thick as the end walls, closes the pocket's tip. It ends
+        where the pocket is only as high as the skin is thick.
+    skin_over_spar
+        Whether the skin also lies over the spar: the chambers are lower by its thickness.
+    skin_slit
+        "none"; "lower": the lower skin is cut along the span right behind the spar, up to a tip
+        wall; "trailing_edge": its two sides are not joined behind the pocket. Limits of a skin
+        that is slack or not bonded; the sides of a slit do not feel each other.
+    skin_prestretch
+        Stretches along the chord (x) and the span (z) with which the skin behind the spar is
+        built in, 1 or more. Where nothing holds it, it contracts.
     rib
         Pantographic rib; None: no ribs.
     rib_positions
@@ -66,6 +89,11 @@ class WingGeometry:
     side_thickness: float = 2.0
     nose_length: float = 5.0
     skin_thickness: float | None = 1.0
+    skin_root: str = "clamped"
+    tip_wall: bool = False
+    skin_over_spar: bool = False
+    skin_slit: str = "none"
+    skin_prestretch: tuple[float, float] = (1.0, 1.0)
     rib: RibGeometry | None = field(
         default_factory=lambda: RibGeometry.prototype(section="square", bosses=True)
     )
@@ -81,7 +109,7 @@ class WingGeometry:
         names = {f.name for f in fields(self)}
         for name in names & set(_LENGTHS):
             value = getattr(self, name)
-            if value is None and name.startswith("foot_"):
+            if value is None and name.startswith(("foot_", "skin_")):
                 continue
             require(is_number(value) and value > 0, name, value, "mm", "greater than 0 mm")
         require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
@@ -89,6 +117,7 @@ class WingGeometry:
         require(ok, "spar_fraction", self.spar_fraction, "", "between 0.1 and 0.9")
         ok = is_number(self.glue_stiffness) and self.glue_stiffness > 0
         require(ok, "glue_stiffness", self.glue_stiffness, "N/mm^3", "greater than 0 N/mm^3")
+        self._check_options()
         self._check_chambers()
         if self.skin_thickness is not None:
             self._check_skin()
@@ -121,11 +150,27 @@ class WingGeometry:
         return self.spar_end - self.side_thickness
 
     @property
+    def outer_wall(self) -> float:
+        """Thickness in mm between a chamber and the outer contour: top wall, skin where there."""
+        return self.top_thickness + (self.skin_thickness if self.skin_over_spar else 0.0)
+
+    @property
+    def is_prestretched(self) -> bool:
+        """Whether the skin is built in stretched."""
+        return tuple(self.skin_prestretch) != (1.0, 1.0)
+
+    @property
     def pocket_end(self) -> float:
         """Chordwise place in mm where the two sides of the skin meet."""
         if self.skin_thickness is None:
             raise InputError("skin_thickness = None: must be a length for a pocket to end")
         return self.section.x_where_half_thickness(self.skin_thickness, front=False)
+
+    @property
+    def tip_wall_end(self) -> float:
+        """Chordwise end of a tip wall in mm: from there the pocket is lower than the skin."""
+        assert self.skin_thickness is not None
+        return self.section.x_where_half_thickness(1.5 * self.skin_thickness, front=False)
 
     def rib_roots(self) -> np.ndarray:
         """Return the root of each rib, shape (n_ribs, 3), mm."""
@@ -151,19 +196,35 @@ class WingGeometry:
                 f"chord = {self.chord:g} mm with aerofoil {self.aerofoil}: must be thicker at both "
                 "ends of the chambers, or they are taller than the aerofoil"
             )
-        require(self.top_thickness < room - 0.1, "top_thickness", self.top_thickness, "mm",
-                f"less than {room - 0.1:.4g} mm, or the chambers are taller than the aerofoil")
+        room -= 0.1 + self.outer_wall - self.top_thickness
+        require(self.top_thickness < room, "top_thickness", self.top_thickness, "mm",
+                f"less than {room:.4g} mm, or the chambers are taller than the aerofoil")
+
+    def _check_options(self) -> None:
+        for name, allowed in _OPTIONS.items():
+            value, default = getattr(self, name), allowed[0]
+            ok = type(value) is type(default) and value in allowed
+            require(ok, name, value, "", " or ".join(map(repr, allowed)))
+            ok = self.skin_thickness is not None or value == default
+            require(ok, name, value, "", f"{default!r} in a wing without skin")
+        given = self.skin_prestretch if isinstance(self.skin_prestretch, (tuple, list)) else ()
+        ok = len(given) == 2 and all(is_number(s) and s >= 1.0 for s in given)
+        require(ok, "skin_prestretch", self.skin_prestretch, "", "two stretches of 1 or more")
+        ok = self.skin_thickness is not None or not self.is_prestretched
+        require(ok, "skin_prestretch", given, "", "(1, 1) in a wing without skin")
 
     def _check_skin(self) -> None:
         value = self.skin_thickness
-        ok = is_number(value) and 0 < value < self.top_thickness
-        require(ok, "skin_thickness", value, "mm",
+        require(value < self.outer_wall, "skin_thickness", value, "mm",
                 f"greater than 0 mm and less than top_thickness = {self.top_thickness:g} mm")
         edge, front = (float(self.section.half_thickness(x)) for x in (self.chord, self.spar_end))
         require(edge < value, "skin_thickness", value, "mm",
                 f"more than {edge:.4g} mm, half the trailing edge's thickness")
         ok = value < front and self.pocket_end > self.spar_end + 1.0
         require(ok, "skin_thickness", value, "mm", "so thin that a pocket remains behind the spar")
+        ok = 1.5 * value < front and self.tip_wall_end > self.spar_end + 1.0
+        require(ok or not self.tip_wall, "skin_thickness", value, "mm",
+                "so thin that a tip wall fits in the pocket")
 
     def _check_ribs(self, rib: RibGeometry) -> None:
         places = self.rib_positions if isinstance(self.rib_positions, (tuple, list)) else ()

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .hexmesh import HexMesh, breakpoints, swept_blocks, two_sided, uniform
+from .seams import with_seams
 from .wing import WingGeometry
 
 # Kinds of blocks: solid ones are positive.
-_SPAR, _SKIN, _UPPER, _LOWER, _POCKET, _NOTHING = 1, 2, -1, -2, -3, -9
+_SPAR, _SKIN, _TIP_WALL, _UPPER, _LOWER, _POCKET, _NOTHING = 1, 2, 3, -1, -2, -3, -9
 # Levels of the height coordinate: middle layer to 1, chamber to 2, inner and outer wall to 3 and 4.
 _TOP = 4.0
 
@@ -24,7 +25,8 @@ class WingMeshing:
     nose, cavity_width, side_thickness, pocket, tail : (n,) arrays
         Along the chord.
     cavity_height, middle_thickness, top_thickness, skin_thickness : (n,) arrays
-        Along the height; the skin is the outer part of the top wall, ``top_thickness`` the rest.
+        Along the height; the skin is the outer part of the wall over the chambers,
+        ``top_thickness`` the rest.
     cavity_length, wall_length : (n,) arrays
         Along the span.
     """
@@ -67,16 +69,17 @@ class WingMeshing:
 def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
     """Return swept hexahedra; x chordwise from the leading edge, y up, z along the span.
 
-    Regions: ``spar`` and ``skin``. Faces: ``root`` (z = 0), ``tip`` (the spar's end),
-    ``upper_chambers``, ``lower_chambers``, ``rear_wall`` (where ribs are glued), and with a skin
-    ``pocket_upper``, ``pocket_lower`` (its inner sides), ``trailing_edge``.
+    Regions: ``spar`` and ``skin``, and ``tip_wall`` where there is one. Faces: ``root`` (what is
+    clamped at z = 0), ``tip`` (the spar's end), ``upper_chambers``, ``lower_chambers``,
+    ``rear_wall`` (where ribs are glued), and with a skin ``pocket_upper``, ``pocket_lower`` (its
+    inner sides), ``trailing_edge``.
     """
     wing, parts, skin = geometry, meshing, geometry.skin_thickness is not None
     pieces = [(wing.nose_length, parts.nose),
               (wing.cavity_end - wing.nose_length, parts.cavity_width),
               (wing.side_thickness, parts.side_thickness)]
     if skin:
-        pieces += [(wing.pocket_end - wing.spar_end, parts.pocket),
+        pieces += [(wing.pocket_end - wing.spar_end, _with_end_of_tip_wall(wing, parts.pocket)),
                    (wing.chord - wing.pocket_end, parts.tail)]
     x, x_piece = breakpoints(*pieces)
     cavity_height = _with_foot_edge(wing, parts.cavity_height)
@@ -95,10 +98,17 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
     kind[np.ix_(x_piece == 4, ~outer)] = _NOTHING
     names = {_SPAR: "spar", _SKIN: "skin", _UPPER: "upper_chambers", _LOWER: "lower_chambers",
              _POCKET: "pocket"}
+    if wing.tip_wall:
+        # Hexahedra cannot fill the sharp end, where all levels meet: there the tip stays open.
+        filled = np.where(x[1:][x_piece == 3] < wing.tip_wall_end + 1e-9, _TIP_WALL, _NOTHING)
+        at_tip = z_piece == z_piece[-1]
+        kind[np.ix_(x_piece == 3, ~outer, at_tip)] = filled[:, None, None]
+        names[_TIP_WALL] = "tip_wall"
 
     def faces(midpoints: np.ndarray, normals: np.ndarray) -> dict[str, np.ndarray]:
         in_spar = midpoints[:, 0] < wing.spar_end + 1e-9
-        named = {"root": normals[:, 2] < 0, "tip": (normals[:, 2] > 0) & in_spar}
+        held = in_spar | (wing.skin_root == "clamped")
+        named = {"root": (normals[:, 2] < 0) & held, "tip": (normals[:, 2] > 0) & in_spar}
         named["trailing_edge" if skin else "rear_wall"] = normals[:, 0] > 0
         return named
 
@@ -106,7 +116,7 @@ def wing_mesh(geometry: WingGeometry, meshing: WingMeshing) -> HexMesh:
         return _to_aerofoil(wing, grid - np.array([0.0, _TOP, 0.0]))
 
     mesh = swept_blocks((x, v, z), kind, names, mapping, faces)
-    return _merged(_with_pocket_sides(mesh)) if skin else mesh
+    return with_seams(_with_pocket_sides(mesh), wing) if skin else mesh
 
 
 def _with_foot_edge(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
@@ -114,14 +124,27 @@ def _with_foot_edge(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
     if wing.rib is None:
         return fractions
     bottom = wing.middle_thickness / 2.0
-    top = float(wing.section.half_thickness(wing.spar_end)) - wing.top_thickness
+    top = float(wing.section.half_thickness(wing.spar_end)) - wing.outer_wall
     edge = (wing.foot()[0] / 2.0 - bottom) / (top - bottom)
     if not 0.02 < edge < 0.98:
         return fractions
+    return _with_point(fractions, edge, apart=0.1)
+
+
+def _with_end_of_tip_wall(wing: WingGeometry, fractions: np.ndarray) -> np.ndarray:
+    """Return the pocket's breakpoints with one at the end of its tip wall."""
+    if not wing.tip_wall:
+        return fractions
+    end = (wing.tip_wall_end - wing.spar_end) / (wing.pocket_end - wing.spar_end)
+    return _with_point(fractions, end, apart=0.02)
+
+
+def _with_point(fractions: np.ndarray, point: float, apart: float) -> np.ndarray:
+    """Return breakpoints with one more, in place of the nearest if that is less than apart."""
     inner = fractions[1:-1]
-    if len(inner) and np.abs(inner - edge).min() < 0.1:
-        inner = np.delete(inner, np.abs(inner - edge).argmin())
-    return np.concatenate([[0.0], np.sort(np.append(inner, edge)), [1.0]])
+    if len(inner) and np.abs(inner - point).min() < apart:
+        inner = np.delete(inner, np.abs(inner - point).argmin())
+    return np.concatenate([[0.0], np.sort(np.append(inner, point)), [1.0]])
 
 
 def _to_aerofoil(wing: WingGeometry, grid: np.ndarray) -> np.ndarray:
@@ -151,8 +174,15 @@ def _height(wing: WingGeometry, x: np.ndarray, level: np.ndarray) -> np.ndarray:
     skin = wing.skin_thickness or wing.top_thickness / 2.0
     inside = np.maximum(outside - skin, 0.0)
     inside[x > _closed(wing)] = 0.0
-    heights = np.stack([np.zeros_like(x), np.full_like(x, wing.middle_thickness / 2.0),
-                        outside - wing.top_thickness, inside, outside])
+    chamber = [np.full_like(x, wing.middle_thickness / 2.0), outside - wing.outer_wall]
+    behind = x > wing.spar_end
+    if behind.any():
+        # In a tip wall the levels of the spar's end become lower with the pocket.
+        front = wing.section.half_thickness(wing.spar_end)
+        ends = wing.middle_thickness / 2.0, front - wing.outer_wall
+        for height, end in zip(chamber, ends, strict=True):
+            height[behind] = end / (front - skin) * inside[behind]
+    heights = np.stack([np.zeros_like(x), *chamber, inside, outside])
     below = np.minimum(level.astype(int), 3)
     column = np.arange(len(x))
     low, high = heights[below, column], heights[below + 1, column]
@@ -170,11 +200,3 @@ def _with_pocket_sides(mesh: HexMesh) -> HexMesh:
     for name, side in (("rear_wall", 3), ("pocket_upper", 1), ("pocket_lower", 4)):
         facets[name] = pocket[pocket[:, 1] == side]
     return replace(mesh, facets=facets)
-
-
-def _merged(mesh: HexMesh) -> HexMesh:
-    """Join points that coincide: where the two sides of the skin meet."""
-    _, first, number = np.unique(
-        np.round(mesh.points, 7) + 0.0, axis=0, return_index=True, return_inverse=True
-    )
-    return replace(mesh, points=mesh.points[first], cells=number.ravel()[mesh.cells])

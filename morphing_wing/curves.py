@@ -29,6 +29,7 @@ AXES = {
     "lower_MPa": (1000.0, r"pressure of the lower chambers $P$, kPa"),
     "cable_N": (1.0, r"tension of each cable $T$, N"),
     "torque_Nmm": (1.0, r"end moment $M$, N mm"),
+    "gravity_g": (1.0, r"weight, multiples of standard gravity"),
 }
 # Angle by definition of the face's rotation -> (its deflection line, symbol, what it is).
 ANGLES = {

@@ -23,6 +23,7 @@ from .forms.pressure import enclosed_volume
 from .geometry.hexmesh import HexMesh
 from .iterate import Iterate
 from .materials import Yeoh
+from .prestretch import Prestretch
 from .thin import BULKY, THIN, ThinCells
 
 
@@ -45,6 +46,8 @@ class Elastomer:
         Faces that stay in their plane: mapping of name to axis (0, 1, 2).
     thin
         Regions that bend like plates: where an enhanced element has strains of its own.
+    prestretch
+        Stretches along x and z with which the thin regions are built in; None: none.
     """
 
     def __init__(
@@ -56,11 +59,13 @@ class Elastomer:
         clamped: Sequence[str] = (),
         symmetry: dict[str, int] | None = None,
         thin: Sequence[str] = (),
+        prestretch: tuple[float, float] | None = None,
     ) -> None:
         self.comm, self.grid, self.material, self.element = comm, grid, material, element
         self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
         self._tag_faces()
         self._thin = self._thin_cells(thin) if element.enhanced else None
+        self.prestretch = prestretch and Prestretch(self.mesh, self._cells_of(*thin), prestretch)
         if element.pressure is not None:
             space = compat.displacement_pressure_space(
                 self.mesh, element.degree, element.pressure
@@ -171,15 +176,19 @@ class Elastomer:
     # -- internals ----------------------------------------------------------------------------
 
     def _gradients(self, w: Any) -> list[Any]:
-        """Return the deformation gradient in each kind of cells: in all, or in bulky and thin ones.
+        """Return the elastic deformation gradient in all cells, or in bulky and in thin ones.
 
         ``w`` is ``function`` or another one of its space.
         """
         if self._thin is None:
-            return [deformation_gradient(ufl.split(w)[0] if self.is_mixed else w)]
+            F = deformation_gradient(ufl.split(w)[0] if self.is_mixed else w)
+            return [self._as_built(F)]
         u, modes = ufl.split(w)
         F = deformation_gradient(u)
-        return [F, self._thin.deformation_gradient(F, modes)]
+        return [F, self._as_built(self._thin.deformation_gradient(F, modes))]
+
+    def _as_built(self, F: Any) -> Any:
+        return F if self.prestretch is None else F * self.prestretch.gradient
 
     def _measures(self) -> list[tuple[Any, Any]]:
         """Return isochoric and volumetric measure of each kind of cells."""

@@ -44,7 +44,7 @@ class BeamFrame:
     """
 
     def __init__(self, comm: MPI.Comm, frame: Frame, material: Elastic) -> None:
-        self.comm, self.frame = comm, frame
+        self.comm, self.frame, self.material = comm, frame, material
         self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points)
         self.bars = compat.original_cells(self.mesh)
         self.function = fem.Function(compat.vector_space(self.mesh, 2, 6), name="ribs")

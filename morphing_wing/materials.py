@@ -32,6 +32,8 @@ class Yeoh:
         C10, C20, ... in MPa; the first must be positive, for the initial shear modulus is 2 C10.
     bulk
         Bulk modulus kappa in MPa; None: 1000 times the initial shear modulus.
+    density
+        In kg/m^3, greater than 0; matters under gravity only. Dragon Skin 30's unless given.
 
     Examples
     --------
@@ -41,6 +43,7 @@ class Yeoh:
 
     coefficients: tuple[float, ...]
     bulk: float | None = None
+    density: float = 1080.0
 
     def __post_init__(self) -> None:
         """Check the constants and fill in the default bulk modulus."""
@@ -60,6 +63,7 @@ class Yeoh:
         require(is_number(bulk) and bulk > 0, "bulk", bulk, "MPa", "greater than 0 MPa")
         object.__setattr__(self, "coefficients", coefficients)
         object.__setattr__(self, "bulk", float(bulk))
+        _check_density(self)
 
     @property
     def shear_modulus(self) -> float:
@@ -81,6 +85,8 @@ class Elastic:
         Young's modulus in MPa, greater than 0.
     nu
         Poisson's ratio, between -1 and 0.5, both excluded.
+    density
+        In kg/m^3, greater than 0; matters under gravity only. A printed resin's unless given.
 
     Examples
     --------
@@ -90,6 +96,7 @@ class Elastic:
 
     E: float
     nu: float
+    density: float = 1180.0
 
     def __post_init__(self) -> None:
         """Check both constants."""
@@ -100,6 +107,7 @@ class Elastic:
         )  # fmt: skip
         object.__setattr__(self, "E", float(self.E))
         object.__setattr__(self, "nu", float(self.nu))
+        _check_density(self)
 
     @property
     def shear_modulus(self) -> float:
@@ -174,8 +182,14 @@ class Adhesive:
         return self.toughness / self.onset
 
 
+def _check_density(material: Yeoh | Elastic) -> None:
+    value = material.density
+    require(is_number(value) and value > 0, "density", value, "kg/m^3", "greater than 0 kg/m^3")
+    object.__setattr__(material, "density", float(value))
+
+
 DRAGON_SKIN_30 = Yeoh((0.117, -0.0006865))
-"""Dragon Skin 30 silicone, the paper's fit: C10 = 0.117, C20 = -0.0006865 MPa."""
+"""Dragon Skin 30 silicone, the paper's fit: C10 = 0.117, C20 = -0.0006865 MPa; 1080 kg/m^3."""
 
 RESIN = Elastic(E=2500.0, nu=0.35)
-"""The ribs' printed resin: the middle of the paper's 2370 to 2640 MPa."""
+"""The ribs' printed resin: the middle of the paper's 2370 to 2640 MPa; 1180 kg/m^3."""

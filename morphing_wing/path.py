@@ -32,7 +32,8 @@ class State:
     ----------
     load
         The scene's loads: ``upper_MPa``, ``lower_MPa`` (chamber pressures, MPa), ``cable_N``
-        (tension in each cable, N), ``torque_Nmm`` (end moment of a rib, N mm).
+        (tension in each cable, N), ``torque_Nmm`` (end moment of a rib, N mm), ``gravity_g``
+        (multiples of standard gravity along -y).
     measures
         What the scene measures, e.g. ``span_angle_deg`` (phi_1, rotation of the tip face, degrees),
         ``span_line_deg`` (its deflection line), ``chord_angle_deg`` (phi_2), ``chord_line_deg``,
@@ -42,7 +43,7 @@ class State:
     energy_Nmm
         Stored energy, N mm.
     external_work_Nmm
-        Work that pressure, cables and moments did along the path so far, N mm.
+        Work that pressure, cables, moments and weight did along the path so far, N mm.
     negative_pivots
         Negative pivots of the tangent beyond those of the pressure unknowns; 0: stable.
     step_seconds

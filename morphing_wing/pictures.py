@@ -34,6 +34,7 @@ COLOUR_MAP = LinearSegmentedColormap.from_list(
 _LOADS = {
     "upper_MPa": (1000.0, "kPa in the upper chambers"), "torque_Nmm": (1.0, "N mm end moment"),
     "lower_MPa": (1000.0, "kPa in the lower chambers"), "cable_N": (1.0, "N in each cable"),
+    "gravity_g": (1.0, "times standard gravity"),
 }
 _RED = "#b00000"
 _CONTACT = "the skin passes through itself or a rib: without contact forces this is fiction"

@@ -17,6 +17,7 @@ __all__ = ["Progress"]
 _LOADS = {
     "upper_MPa": (1000.0, "upper kPa"), "lower_MPa": (1000.0, "lower kPa"),
     "cable_N": (1.0, "cable N"), "torque_Nmm": (1.0, "torque N mm"),
+    "gravity_g": (1.0, "gravity g"),
 }
 _ANGLES = {"span_angle_deg": "phi_1 deg", "chord_angle_deg": "phi_2 deg"}
 _WIDTH = 13

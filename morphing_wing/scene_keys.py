@@ -15,9 +15,11 @@ from pydantic import BeforeValidator, Field
 from morphing_wing.errors import InputError, plain, require
 from morphing_wing.scene_values import (
     Angle,
+    Density,
     GlueStiffness,
     Length,
     Modulus,
+    Multiple,
     Point,
     Pressure,
     Tension,
@@ -86,6 +88,11 @@ class WingKeys(Keys):
     side_thickness: Length | None = None
     nose_length: Length | None = None
     skin_thickness: Annotated[Length | None, BeforeValidator(or_none)] = None
+    skin_root: Literal["clamped", "free"] | None = None
+    tip_wall: bool | None = None
+    skin_over_spar: bool | None = None
+    skin_slit: Literal["none", "lower", "trailing_edge"] | None = None
+    skin_prestretch: Annotated[list[float], Field(min_length=2, max_length=2)] | None = None
     rib: Annotated[RibKeys | None, BeforeValidator(or_none)] = None
     rib_positions: Annotated[list[float], Field(min_length=1)] | None = None
     foot_height: Length | None = None
@@ -96,17 +103,19 @@ class WingKeys(Keys):
 
 
 class ElastomerKeys(Keys):
-    """``[elastomer]``: Yeoh's C10, C20, ... and the bulk modulus."""
+    """``[elastomer]``: Yeoh's C10, C20, ..., the bulk modulus, the density."""
 
     coefficients: list[Modulus] | None = None
     bulk: Modulus | None = None
+    density: Density | None = None
 
 
 class ResinKeys(Keys):
-    """``[resin]``: Young's modulus and Poisson's ratio."""
+    """``[resin]``: Young's modulus, Poisson's ratio, density."""
 
     E: Modulus | None = None
     nu: float | None = None
+    density: Density | None = None
 
 
 class PressureKeys(Keys):
@@ -125,9 +134,10 @@ class RibLoadKeys(Keys):
 
 
 class WingLoadKeys(PressureKeys):
-    """``[loads]`` of a wing; ``cable`` is the tension in each rib's cable."""
+    """``[loads]`` of a wing: ``cable`` in each rib's, ``gravity`` in multiples of the standard."""
 
     cable: Tension | None = None
+    gravity: Multiple | None = None
 
 
 class SparFile(Keys):

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
+from morphing_wing.errors import is_number
 from morphing_wing.units import KINDS, quantity
 
 __all__ = [
     "Angle",
+    "Density",
     "GlueStiffness",
     "Length",
     "Modulus",
+    "Multiple",
     "Point",
     "Pressure",
     "Tension",
@@ -41,8 +45,8 @@ def load(kind: str) -> BeforeValidator:
             return evenly_spaced(value, kind)
         given = value if isinstance(value, list) else [value]
         if not given:
-            raise ValueError(f'must hold at least one value such as "{KINDS[kind][1]}"')
-        return tuple(quantity(item, kind) for item in given)
+            raise ValueError(f"must hold at least one value such as {example(kind)}")
+        return tuple(one_value(item, kind) for item in given)
 
     def read_and_check(value: Any) -> tuple[float, ...]:
         values = read(value)
@@ -53,16 +57,30 @@ def load(kind: str) -> BeforeValidator:
     return BeforeValidator(read_and_check)
 
 
+def one_value(value: Any, kind: str) -> float:
+    """Read text with a unit, or a plain number where a load is a multiple of something."""
+    if kind != "multiple":
+        return quantity(value, kind)
+    if not is_number(value) or not math.isfinite(value):
+        raise ValueError(f"must be a plain finite number, such as {example(kind)}")
+    return float(value)
+
+
+def example(kind: str) -> str:
+    """Return a value of a load as one writes it in TOML."""
+    return "1.0" if kind == "multiple" else f'"{KINDS[kind][1]}"'
+
+
 def evenly_spaced(table: dict[str, Any], kind: str) -> tuple[float, ...]:
     """Read ``{ from = "0 kPa", to = "40 kPa", points = 9 }``; from zero where from is left out."""
     if not {"to", "points"} <= set(table) <= {"from", "to", "points"}:
-        form = f'{{ from = "...", to = "{KINDS[kind][1]}", points = 5 }}'
+        form = f"{{ from = ..., to = {example(kind)}, points = 5 }}"
         raise ValueError(f"must be written as {form}")
     points = table["points"]
     if type(points) is not int or not 2 <= points <= MAX_POINTS:
         raise ValueError(f"must have points as a whole number from 2 to {MAX_POINTS}")
-    last = quantity(table["to"], kind)
-    first = quantity(table["from"], kind) if "from" in table else 0.0
+    last = one_value(table["to"], kind)
+    first = one_value(table["from"], kind) if "from" in table else 0.0
     inner = (first + (last - first) * i / (points - 1) for i in range(1, points - 1))
     return (first, *inner, last)
 
@@ -71,7 +89,9 @@ Length = Annotated[float, measured("length")]
 Angle = Annotated[float, measured("angle")]
 GlueStiffness = Annotated[float, measured("stiffness per area")]
 Modulus = Annotated[float, measured("pressure")]
+Density = Annotated[float, measured("density")]
 Point = Annotated[list[Length], Field(min_length=3, max_length=3)]
 Pressure = Annotated[tuple[float, ...], load("pressure")]
 Torque = Annotated[tuple[float, ...], load("torque")]
 Tension = Annotated[tuple[float, ...], load("force")]
+Multiple = Annotated[tuple[float, ...], load("multiple")]

@@ -70,9 +70,13 @@ class EquilibriumSystem:
                 if residual is None:
                     continue
                 self._residuals.append((i, compat.form(residual)))
+                # A potential that is linear, as a weight's is, has no tangent; stored ones are not.
+                stored = i in corrections
+                expanded = residual if stored else ufl.algorithms.expand_derivatives(residual)
+                depends_on = expanded.coefficients()
                 for j, other in enumerate(self.blocks):
                     tangent = _derivative(residual, other.function, 1)
-                    if tangent is None:
+                    if tangent is None or other.function not in depends_on:
                         continue
                     correction = corrections.pop(i, None) if i == j else None
                     if correction is not None:

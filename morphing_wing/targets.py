@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import InputError, require
 
-UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm"}
+UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm", "g": "g", "part": ""}
 """End of a load's name -> its unit as one writes it."""
 
 
@@ -20,7 +20,8 @@ def load_targets(
     Parameters
     ----------
     names
-        All loads of a scene, each with its unit: ``upper_MPa``, ``cable_N``, ``torque_Nmm``.
+        All loads of a scene, each with its unit: ``upper_MPa``, ``cable_N``, ``torque_Nmm``,
+        ``gravity_g``.
     loads
         Of each load by name a number, a sequence of them, or None for none; broadcast together.
 

@@ -37,6 +37,7 @@ from .steering import wing_steerings
 from .system import EquilibriumSystem
 from .tension import check_tension
 from .trim import Trim, trim
+from .weight import Weight
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class Wing(Scene):
     """
 
     name = "wing"
-    load_names = ("upper_MPa", "lower_MPa", "cable_N")
+    load_names = ("upper_MPa", "lower_MPa", "cable_N", "gravity_g")
 
     def __init__(
         self,
@@ -100,6 +101,9 @@ class Wing(Scene):
         adhesive: Adhesive | None = None,
     ) -> None:
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
+        prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
+        if prestretch is not None:
+            self.load_names = (*self.load_names, "prestretch_part")
         super().__init__(fidelity, comm)
         self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
         self._options_prefix = options_prefix
@@ -108,6 +112,7 @@ class Wing(Scene):
         self.body = Elastomer(
             self.comm, wing_mesh(geometry, meshing or rung.meshing), elastomer,
             element_named(element or rung.element), clamped=("root",), thin=("skin",),
+            prestretch=prestretch,
         )
         blocks, bars = [self.body.block], None
         if geometry.rib is not None:
@@ -135,12 +140,13 @@ class Wing(Scene):
         upper: float | Sequence[float] | None = None,
         lower: float | Sequence[float] | None = None,
         cable: float | Sequence[float] | None = None,
+        gravity: float | Sequence[float] | None = None,
         on_step: Callable[[State], None] | None = None,
         on_cut: Callable[..., None] | None = None,
         restart: str | os.PathLike | None = None,
         resume: str | os.PathLike | None = None,
     ) -> Path:
-        """Inflate chambers and pull cables.
+        """Inflate chambers, pull cables, let elastomer and ribs weigh.
 
         Parameters
         ----------
@@ -148,13 +154,17 @@ class Wing(Scene):
             Pressures in MPa in the two rows of chambers: numbers, sequences or None.
         cable
             Tension in N in the cable of each rib: a number, a sequence or None.
+        gravity
+            Weight along -y in multiples of standard gravity: a number, a sequence or None.
         on_step, on_cut, restart, resume
             See `Scene.follow`.
 
         Returns
         -------
         Path
-            All converged steps. ``contact`` in its table is true from where the skin passes
+            All converged steps. A skin with prestretch is built in first, in steps that are not
+            among them unless they fail; what that stores is in the energy, not in the external
+            work. ``contact`` in its table is true from where the skin passes
             through itself or a rib: contact forces are not modelled.
 
         Raises
@@ -164,7 +174,14 @@ class Wing(Scene):
             ribs.
         """
         check_tension(cable, ribs=self.ribs is not None)
-        loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable}
+        loads = {"upper_MPa": upper, "lower_MPa": lower, "cable_N": cable,
+                 "gravity_g": gravity}
+        if self.body.prestretch is not None:
+            loads["prestretch_part"] = 1.0
+            if resume is None and self._load["prestretch_part"] == 0.0:
+                built_in = self.follow({"prestretch_part": 1.0})
+                if not built_in.converged:
+                    return built_in
         return self.follow(loads, on_step, on_cut, restart, resume)
 
     def trim(
@@ -309,6 +326,12 @@ class Wing(Scene):
             reach = cable_potential(1.0, displacement(self.ribs.function), guide)
             self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
             energies.append(self.ribs.at_ends("tail", tension * reach))
+        if "prestretch_part" in in_use:
+            self.loads["prestretch_part"] = [self.body.prestretch.part]
+        if "gravity_g" in in_use:
+            self._weight = Weight(self.body, self.ribs)
+            self.loads["gravity_g"] = self._weight.multiples
+            energies += self._weight.potentials
         return energies, [part.tangent_correction for part in self._parts()]
 
     def _stored(self) -> list[Any]:
@@ -323,6 +346,8 @@ class Wing(Scene):
         found = self._chambers.volumes()
         if "cable_N" in self.loads:
             found["cable_N"] = -compat.assemble_scalar(self.comm, self._cable_length)
+        if "gravity_g" in self.loads:
+            found["gravity_g"] = self._weight.fall()
         return found
 
     # -- what is measured ---------------------------------------------------------------------

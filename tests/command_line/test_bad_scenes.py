@@ -122,6 +122,11 @@ BROKEN = {
         wing('skin_thickness = "2 mm"'), "geometry.skin_thickness = 2 mm: must be"),
     "skin of no thickness": (
         wing('skin_thickness = "0 mm"'), "geometry.skin_thickness = 0 mm: must be"),
+    "skin slit nowhere known": (
+        wing('skin_slit = "upper"'), "geometry.skin_slit = 'upper': must be 'none', 'lower' or"),
+    "skin squeezed": (
+        wing("skin_prestretch = [0.9, 1.0]"), "must be two stretches of 1 or more"),
+    "skin stretched one way": (wing("skin_prestretch = [1.1]"), "geometry.skin_prestretch = "),
     "skin switched off by false": (
         wing("skin_thickness = false"), "geometry.skin_thickness = False: must be a length"),
     "rib longer than the pocket": (
@@ -147,6 +152,14 @@ BROKEN = {
         toml(SPAR, elastomer="coefficients = []"), "elastomer.coefficients = "),
     "rubber of negative bulk modulus": (
         toml(SPAR, elastomer='bulk = "-1 MPa"'), "elastomer.bulk = -1 MPa: must be greater"),
+    "rubber without weight": (
+        toml(WING, elastomer='density = "0 kg/m^3"'), "elastomer.density = 0 kg/m^3: must be"),
+    "gravity with a unit": (
+        loads(WING, 'gravity = "9.81 m/s^2"'), "'9.81 m/s^2': must be a plain finite number"),
+    "gravity not finite": (loads(WING, "gravity = [1.0, nan]"), "must be a plain finite number"),
+    "gravity from no number": (
+        loads(WING, "gravity = { points = 3 }"), "must be written as { from = ..., to = 1.0"),
+    "gravity on a spar alone": (loads(SPAR, "gravity = 1.0"), "loads.gravity: unknown key"),
     "resin incompressible": (toml(RIB, resin="nu = 0.5"), "resin.nu = 0.5: must be greater"),
     "resin without stiffness": (toml(RIB, resin='E = "0 MPa"'), "resin.E = 0 MPa: must be greater"),
     "resin for a spar": (toml(SPAR, resin="nu = 0.3"), "resin: unknown key"),

@@ -88,6 +88,8 @@ def test_elastomer_takes_the_default_bulk_modulus_of_its_own_shear_modulus():
     assert read.materials["material"].coefficients == pytest.approx((0.2, -1e-3, 1e-5))
     assert read.materials["material"].bulk == pytest.approx(400.0)
     stiff = spar(more='[elastomer]\nbulk = "1 GPa"').materials["material"]
+    assert spar(more='[elastomer]\ndensity = "1.2 g/cm^3"').materials["material"].density == (
+        pytest.approx(1200.0))
     assert stiff == Yeoh(DRAGON_SKIN_30.coefficients, bulk=1000.0)
 
 
@@ -102,10 +104,25 @@ def test_none_switches_skin_and_ribs_off():
     assert bare.skin_thickness is None and bare.rib is None
 
 
+def test_skin_of_a_wing_is_built_as_the_file_says():
+    lines = ('skin_root = "free"', "tip_wall = true", "skin_over_spar = true",
+             'skin_slit = "lower"', "skin_prestretch = [1.1, 1]")
+    assert wing("\n".join(lines)) == WingGeometry.prototype(
+        skin_root="free", tip_wall=True, skin_over_spar=True, skin_slit="lower",
+        skin_prestretch=(1.1, 1.0))
+
+
 def test_ribs_of_a_wing_change_from_those_of_its_preset():
     rib = wing('[geometry.rib]\nn_cells = 12\ncrossing_angle = "80 deg"').rib
     base = WingGeometry.prototype().rib
     assert rib == dataclasses.replace(base, n_cells=12, crossing_angle=80.0)
+
+
+def test_gravity_is_a_plain_number_a_list_or_evenly_spaced():
+    head = 'scene = "wing"\n[geometry]\npreset = "prototype"\n[loads]\ngravity = '
+    assert scene(head + "1").loads == {"gravity": (1.0,)}
+    assert scene(head + "[0.0, -1.5]").loads["gravity"] == (0.0, -1.5)
+    assert scene(head + "{ to = 1.0, points = 3 }").loads["gravity"] == (0.0, 0.5, 1.0)
 
 
 def test_guide_of_a_rib_is_a_point_in_mm():
@@ -132,7 +149,7 @@ def test_built_in_scene_is_read_and_describes_itself_in_its_first_line(name):
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_values_in_a_built_in_scenes_comments_are_the_defaults(name):
     """A reader who uncomments a line must not change the scene by that."""
-    text = re.sub(r'(?m)^# (?=\w+ = (?!"none"))(?!guide|torque|lower|upper|cable =)', "",
+    text = re.sub(r'(?m)^# (?=\w+ = (?!"none"))(?!guide|torque|lower|upper|cable|gravity =)', "",
                   BUILT_IN[name])
     text = re.sub(r"(?m)^# (?=\[)", "", text)
     assert text.count("#") < BUILT_IN[name].count("#") - 5

@@ -30,6 +30,8 @@ pytestmark = pytest.mark.quick
         (f"{math.pi} rad", "angle", 180.0),
         ("50 N/mm^3", "stiffness per area", 50.0),
         ("50 MPa/mm", "stiffness per area", 50.0),
+        ("1080 kg/m^3", "density", 1080.0),
+        ("1.08 g/cm^3", "density", 1080.0),
     ],
 )
 def test_text_becomes_the_packages_unit(text, kind, value):

@@ -121,6 +121,12 @@ def test_stiffness_of_a_circle_and_a_rectangle():
     assert (GA2, EI2, EI3) == pytest.approx((5 * G, E * 4.5, E * 2.0))
 
 
+def test_bars_have_the_areas_of_their_sections_and_stiffened_pieces_their_own():
+    frame = RibGeometry.prototype(2, section="square").frame()
+    areas = {name: set(frame.areas()[frame.of_kind(name)]) for name in ("shaft", "pivot", "arm")}
+    assert areas == {"shaft": {1.0}, "pivot": {np.pi * 1.5**2 / 4}, "arm": {np.pi * 1.5**2 / 4}}
+
+
 def test_joined_ribs_keep_their_ends_and_sections():
     one, two = RibGeometry.validation(), RibGeometry.prototype(3)
     both = join([one.frame(), two.frame().placed((75.0, 0.0, 20.0))])

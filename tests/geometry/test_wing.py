@@ -1,5 +1,7 @@
 """The wing's mesh: counts, volumes, faces, positive cells; bad input."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -19,7 +21,11 @@ MESHINGS = pytest.mark.parametrize(
 GEOMETRIES = pytest.mark.parametrize("wing", [
     SMALL, NO_SKIN, WingGeometry.prototype(n_cells=2, aerofoil="2412"),
     WingGeometry.prototype(n_cells=1, skin_thickness=0.5),
-    WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0)])
+    WingGeometry.prototype(n_cells=1, spar_fraction=0.4, nose_length=8.0),
+    WingGeometry.prototype(n_cells=1, aerofoil="2412", tip_wall=True),
+    WingGeometry.prototype(n_cells=1, skin_over_spar=True, tip_wall=True),
+    WingGeometry.prototype(n_cells=1, skin_slit="lower"),
+    WingGeometry.prototype(n_cells=1, aerofoil="2412", skin_slit="trailing_edge")])
 
 
 def area(section, height, start, end):
@@ -69,12 +75,14 @@ def test_unnamed_boundary_is_the_outer_contour_and_the_skins_open_end():
     np.testing.assert_allclose(total, 0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("wing", [SMALL, NO_SKIN])
+@pytest.mark.parametrize("wing", [SMALL, NO_SKIN, replace(SMALL, skin_over_spar=True)])
 def test_chambers_are_closed_and_hold_what_the_aerofoil_leaves(wing):
     mesh = wing_mesh(wing, MANY)
 
     def height(section, x):
-        return section.half_thickness(x) - wing.top_thickness - wing.middle_thickness / 2
+        skin = wing.skin_thickness if wing.skin_over_spar else 0.0
+        wall = wing.top_thickness + skin
+        return section.half_thickness(x) - wall - wing.middle_thickness / 2
 
     expected = area(wing.section, height, wing.nose_length, wing.cavity_end) / 2
     for row in ("upper_chambers", "lower_chambers"):
@@ -132,6 +140,73 @@ def test_faces_have_the_places_of_the_drawing():
     assert wall[..., 1].max() == pytest.approx(inside) == -wall[..., 1].min()
 
 
+def test_free_root_edge_of_the_skin_is_bare_and_the_spars_is_not():
+    meshes = [wing_mesh(replace(SMALL, skin_root=how), WingMeshing.coarse())
+              for how in ("clamped", "free")]
+    clamped, free = (hexahedra.pairs(mesh, "root") for mesh in meshes)
+    skin, spar = (set(meshes[0].regions[name]) for name in ("skin", "spar"))
+    assert {cell for cell, _ in set(clamped) - set(free)} <= skin
+    assert {cell for cell, _ in free} == spar & {cell for cell, _ in clamped}
+
+
+def test_tip_wall_fills_the_pocket_up_to_where_it_is_as_high_as_the_skin_is_thick():
+    wing = replace(SMALL, tip_wall=True)
+    mesh = wing_mesh(wing, MANY)
+    pocket = area(wing.section, lambda s, x: s.half_thickness(x) - 1.0,
+                  wing.spar_end, wing.tip_wall_end)
+    assert hexahedra.volume(mesh, "tip_wall") == pytest.approx(
+        pocket * wing.wall_length, rel=1e-3)
+    assert wing.section.half_thickness(wing.tip_wall_end) - 1.0 == pytest.approx(0.5)
+    assert hexahedra.volume(mesh, "skin") == pytest.approx(
+        hexahedra.volume(wing_mesh(SMALL, MANY), "skin"), rel=1e-3)
+
+
+def test_faces_of_the_pocket_end_at_the_tip_wall_and_the_tip_stays_the_spars():
+    mesh = wing_mesh(replace(SMALL, tip_wall=True), WingMeshing.coarse())
+    for name in ("pocket_upper", "pocket_lower", "rear_wall"):
+        assert mesh.facet_points(name)[..., 2].max() == pytest.approx(
+            SMALL.span - SMALL.wall_length)
+    assert mesh.facet_points("rear_wall")[..., 0] == pytest.approx(SMALL.spar_end)
+    assert mesh.facet_points("tip")[..., 0].max() == pytest.approx(SMALL.spar_end)
+    assert len(np.unique(np.round(mesh.points, 6), axis=0)) == len(mesh.points)
+
+
+def bare_facets(mesh):
+    """Corners of facets that are boundary but not of the mesh without a slit."""
+    whole = wing_mesh(SMALL, WingMeshing.coarse())
+    mesh.facets["new"] = np.array(sorted(hexahedra.boundary(mesh) - hexahedra.boundary(whole)))
+    return mesh.facet_points("new")
+
+
+def test_slit_trailing_edge_parts_the_two_sides_behind_the_pocket_and_nothing_else():
+    mesh = wing_mesh(replace(SMALL, skin_slit="trailing_edge"), WingMeshing.coarse())
+    x, y, z = np.moveaxis(bare_facets(mesh), -1, 0)
+    assert x.min() == pytest.approx(SMALL.pocket_end) and x.max() == pytest.approx(SMALL.chord)
+    np.testing.assert_allclose(y, 0.0, atol=1e-12)
+    assert hexahedra.area(mesh, "new") == pytest.approx(
+        2.0 * (SMALL.chord - SMALL.pocket_end) * SMALL.span)
+
+
+def test_slit_lower_skin_is_parted_from_the_spar_and_nothing_else():
+    mesh = wing_mesh(replace(SMALL, skin_slit="lower"), WingMeshing.coarse())
+    x, y, z = np.moveaxis(bare_facets(mesh), -1, 0)
+    np.testing.assert_allclose(x, SMALL.spar_end)
+    outside = -float(SMALL.section.half_thickness(SMALL.spar_end))
+    assert y.min() == pytest.approx(outside) and y.max() == pytest.approx(outside + 1.0)
+    assert hexahedra.area(mesh, "new") == pytest.approx(2.0 * SMALL.span)
+
+
+def test_slit_of_the_lower_skin_ends_at_the_tip_wall():
+    mesh = wing_mesh(replace(SMALL, skin_slit="lower", tip_wall=True), WingMeshing.coarse())
+    points, count = np.unique(np.round(mesh.points, 6), axis=0, return_counts=True)
+    doubled = points[count == 2]
+    assert len(doubled) == 2 * 4  # at the skin's two sides, where the first four pieces begin
+    np.testing.assert_allclose(doubled[:, 0], SMALL.spar_end)
+    assert doubled[:, 2].min() == 0.0
+    assert doubled[:, 2].max() == pytest.approx(
+        SMALL.span - SMALL.wall_length - SMALL.cavity_length)
+
+
 @pytest.mark.parametrize("changes, name", [
     ({"chord": -150.0}, "chord"),
     ({"cavity_length": 0.0}, "cavity_length"),
@@ -144,6 +219,21 @@ def test_faces_have_the_places_of_the_drawing():
     ({"skin_thickness": -1.0}, "skin_thickness"),
     ({"skin_thickness": 2.0}, "skin_thickness"),
     ({"skin_thickness": "1 mm"}, "skin_thickness"),
+    ({"skin_root": "glued"}, "skin_root"),
+    ({"skin_root": "free", "skin_thickness": None}, "skin_root"),
+    ({"skin_over_spar": True, "skin_thickness": None}, "skin_over_spar"),
+    ({"skin_over_spar": True, "top_thickness": 4.0}, "top_thickness"),
+    ({"skin_over_spar": True, "skin_thickness": "1 mm"}, "skin_thickness"),
+    ({"skin_slit": "upper"}, "skin_slit"),
+    ({"skin_slit": "lower", "skin_thickness": None}, "skin_slit"),
+    ({"skin_prestretch": (1.1,)}, "skin_prestretch"),
+    ({"skin_prestretch": 1.1}, "skin_prestretch"),
+    ({"skin_prestretch": (1.0, 0.9)}, "skin_prestretch"),
+    ({"skin_prestretch": (1.1, 1.0), "skin_thickness": None}, "skin_prestretch"),
+    ({"tip_wall": 1}, "tip_wall"),
+    ({"tip_wall": True, "skin_thickness": None}, "tip_wall"),
+    ({"tip_wall": True, "skin_thickness": 2.7, "top_thickness": 2.8, "spar_fraction": 0.8,
+      "rib": None}, "skin_thickness"),
     ({"glue_stiffness": 0.0}, "glue_stiffness"),
     ({"foot_height": -1.0}, "foot_height"),
     ({"rib_positions": ()}, "rib_positions"),

@@ -1,6 +1,7 @@
 """Scenes give the same figures on any number of ranks as on one."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.rib import Rib
 from morphing_wing.spar import Spar
 from morphing_wing.summary import summary
-from tests.scenes.small_wing import small_wing
+from tests.scenes.small_wing import GEOMETRY, small_wing
 
 # Rounding of the factorisation, seen through Newton's tolerance.
 RELATIVE = 1e-8
@@ -82,6 +83,15 @@ def wing(comm):
 
 def test_wing_with_ribs_skin_cables_and_pressure_is_the_same():
     compare(wing, without=("gap_mm",))
+
+
+def test_heavy_wing_with_a_slit_skin_and_a_tip_wall_is_the_same():
+    geometry = replace(GEOMETRY, skin_root="free", tip_wall=True, skin_slit="lower")
+
+    def run(comm):
+        return small_wing(comm, geometry=geometry).actuate(cable=0.05, gravity=[0.0, 1.0])
+
+    compare(run, without=("gap_mm",))
 
 
 def test_gap_in_the_wing_is_the_same():

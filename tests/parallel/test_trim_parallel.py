@@ -33,6 +33,8 @@ def test_sensitivities_are_the_same_and_leave_the_state_as_it_is():
         state = scene.actuate(upper=0.01, cable=0.1)[-1]
         found.append(sensitivities(scene, ["upper_MPa", "cable_N"]))
         for values, block in zip(scene.unknowns(), scene.system.blocks, strict=True):
+            if block.local:
+                continue
             np.testing.assert_array_equal(values, state.fields[block.function.name])
     for name, rates in found[0].items():
         assert rates == pytest.approx(found[1][name], rel=1e-6), name

@@ -37,6 +37,7 @@ def test_cables_do_not_push(changes):
 @pytest.mark.parametrize("load, text", [
     ({"upper": float("nan")}, r"^upper = nan MPa: must be finite"),
     ({"cable": float("inf")}, r"^cable = inf N: must be finite"),
+    ({"gravity": float("inf")}, r"^gravity = inf g: must be finite"),
     ({"cable": "0.1 N"}, r"^cable = '0\.1 N': must be a number"),
     ({"upper": [0.01, 0.02], "cable": [0.1] * 3}, "^loads have lengths upper 2, lower 1, cable 3"),
 ])
