@@ -114,11 +114,11 @@ class BeamFrame:
 
     def end_numbers(self, block: Block, kind: str, rib: int) -> np.ndarray:
         """Return a system's numbers of a rib's root or tail on every rank, shape (6,)."""
-        numbers = np.full(6, -1, dtype=np.int64)
+        numbers = np.zeros(6, dtype=np.int64)
         dofs = self.owned(self.end_dofs(kind, rib))
         if len(dofs):
             numbers[:] = block.numbers[dofs]
-        return self.comm.allreduce(numbers, op=MPI.MAX)
+        return self.comm.allreduce(numbers, op=MPI.SUM)
 
     def end_values(self, kind: str, rib: int) -> np.ndarray:
         """Return u (mm) and theta of a rib's root or tail on every rank, shape (6,)."""
