@@ -75,7 +75,7 @@ def figure(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> Figure:
                 up=set(rows["direction"]) == {"up"})
         above.set_title(TITLES[name], loc="left", fontweight="bold", fontsize=12.5)
         above.set_ylabel(f"{SYMBOLS[panel.angle]}, degrees (down: positive)")
-        below.set_ylabel(f"coupling: {SYMBOLS[panel.other]}, deg")
+        below.set_ylabel(f"{SYMBOLS[panel.other]} caused\nby {name}, deg")
         below.set_xlabel(AXES[panel.load][1])
         below.set_xlim(left=0.0)
         for each in (above, below):
@@ -97,15 +97,18 @@ def _curve(
     marker = MARKERS.get(curve["fidelity"].iloc[0], "v")
     flags = {name: curve[name].to_numpy(float) > 0.0 if name in curve else np.zeros(len(x), bool)
              for name in ("contact", "negative_pivots")}
-    look = {"color": colour, "linewidth": 0.9 if light else 2.0, "alpha": 0.75 if light else 1.0}
+    open_marker = marker == "o"  # of the coarsest: it lies on top, finer ones show through
+    look = {"color": colour, "linewidth": 0.9 if light else 1.5 if open_marker else 2.2,
+            "alpha": 0.75 if light else 1.0}
     into_contact = flags["contact"] | np.append(flags["contact"][1:], False)
     axes.plot(x, np.where(flags["contact"], np.nan, y), **look)
     axes.plot(x, np.where(into_contact, y, np.nan), linestyle=_DASHES, **look)
     if light:
         return
     asked = curve["requested"].to_numpy(bool)
-    axes.plot(x[asked], y[asked], linestyle="none", marker=marker, markersize=5.5, color=colour,
-              markerfacecolor="white" if marker == "o" else colour)
+    axes.plot(x[asked], y[asked], linestyle="none", marker=marker, color=colour,
+              markersize=8.0 if open_marker else 4.5, zorder=3.0 if open_marker else 2.5,
+              markerfacecolor="none" if open_marker else colour)
     unstable = flags["negative_pivots"]
     axes.plot(x[unstable], y[unstable], linestyle="none", marker="x", markersize=10, color="k")
     if end:
@@ -117,7 +120,8 @@ def _stated(axes: Axes, name: str, panel: Panel, both_ways: bool, up: bool) -> N
     """Draw what the paper's text states: outside of the axes, where no curve can be."""
     for sign in (1, -1) if both_ways else (-1,) if up else (1,):
         axes.axhline(sign * panel.limit_deg, color=_STATED, linestyle=":", linewidth=1.6)
-        axes.annotate(f"reached in\nthe test:\n{sign * panel.limit_deg:g}\N{DEGREE SIGN}",
+        axes.annotate(f"reached in\nthe test:\n{sign * panel.limit_deg:g}\N{DEGREE SIGN}"
+                      .replace("-", "\N{MINUS SIGN}"),
                       (1.0, sign * panel.limit_deg), (5, 0), ("axes fraction", "data"),
                       textcoords="offset points", va="center", fontsize=9.5, color=_STATED)
     if name != "pressure":
@@ -129,16 +133,18 @@ def _stated(axes: Axes, name: str, panel: Panel, both_ways: bool, up: bool) -> N
     axes.annotate(f"beyond {SOFTER_FROM_KPA:g} kPa the test is\nsofter than the paper's FEM",
                   (0.5 * (SOFTER_FROM_KPA + right), 0.0), (0, -7 if up else 7), "data",
                   textcoords="offset points", ha="center", va="top" if up else "bottom",
-                  fontsize=9.5, color="#7a6a35", linespacing=1.15)
+                  fontsize=9.0, color="#7a6a35", linespacing=1.15)
 
 
 def _legend(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> list[Line2D]:
     """Return what is in the figure, each thing once."""
     entries = [Line2D([], [], color=colour, linewidth=2.0, label=label)
                for skin, (label, colour) in SKINS.items() if skin in set(table["skin"])]
-    entries += [Line2D([], [], color="#333", linewidth=2.0, marker=MARKERS.get(name, "v"),
-                       markersize=5.5, label=f"fidelity \u201c{name}\u201d",
-                       markerfacecolor="white" if MARKERS.get(name) == "o" else "#333")
+    entries += [Line2D([], [], color="#333", marker=MARKERS.get(name, "v"),
+                       linewidth=1.5 if MARKERS.get(name) == "o" else 2.2,
+                       markersize=8.0 if MARKERS.get(name) == "o" else 4.5,
+                       markerfacecolor="none" if MARKERS.get(name) == "o" else "#333",
+                       label=f"fidelity \u201c{name}\u201d")
                 for name in dict.fromkeys(table["fidelity"])]
     entries += [
         Line2D([], [], color="#333", linewidth=2.0, label="rotation of the end face"),
