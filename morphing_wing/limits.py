@@ -9,10 +9,7 @@ from .fields import scene_grids
 from .path import State
 from .wing import Wing
 
-__all__ = ["FRACTURE_STRETCH", "Limits"]
-
-FRACTURE_STRETCH = 4.64
-"""The paper's silicone tears at 364 % strain."""
+__all__ = ["Limits"]
 
 
 class Limits:

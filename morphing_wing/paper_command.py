@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pathlib
 import re
+import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -120,7 +121,7 @@ def say(study: Figure7) -> None:
     from morphing_wing.figure7_report import report
 
     if study.comm.rank == 0:
-        console = Console(soft_wrap=True)
+        console = Console(width=None if sys.stdout.isatty() else 132)  # a file has no width
         for part in report(study.facts()):
             console.print()
             console.print(part)
