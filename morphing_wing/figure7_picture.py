@@ -130,7 +130,7 @@ def _stated(axes: Axes, name: str, panel: Panel, both_ways: bool, up: bool) -> N
     axes.axvspan(SOFTER_FROM_KPA, right, color=_SOFTER, zorder=0.1, linewidth=0.0)
     axes.set_xlim(right=right)
     # Between the axis and the curves, which have left it long before 25 kPa.
-    axes.annotate(f"beyond {SOFTER_FROM_KPA:g} kPa the test is\nsofter than the paper's FEM",
+    axes.annotate(f"beyond {SOFTER_FROM_KPA:g} kPa\nthe test is softer than\nthe paper's FEM",
                   (0.5 * (SOFTER_FROM_KPA + right), 0.0), (0, -7 if up else 7), "data",
                   textcoords="offset points", ha="center", va="top" if up else "bottom",
                   fontsize=9.0, color="#7a6a35", linespacing=1.15)

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from typing import Any
 
+from rich.console import Console
 from rich.table import Table
 
 from morphing_wing.figure7_facts import PANELS, words
 
-__all__ = ["report"]
+__all__ = ["console", "report"]
+
+
+def console() -> Console:
+    """Return a console on standard output, 132 columns wide where that is no terminal."""
+    return Console(width=None if sys.stdout.isatty() else 132)
 
 
 def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:

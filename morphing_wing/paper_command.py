@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pathlib
 import re
-import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -116,15 +115,11 @@ def saved(folder: pathlib.Path, study: Figure7, curve: Curve, path: Path) -> Non
 
 def say(study: Figure7) -> None:
     """Print the facts as tables; on rank 0, as everything that a command prints."""
-    from rich.console import Console
-
-    from morphing_wing.figure7_report import report
+    from morphing_wing.figure7_report import console, report
 
     if study.comm.rank == 0:
-        console = Console(width=None if sys.stdout.isatty() else 132)  # a file has no width
-        for part in report(study.facts()):
-            console.print()
-            console.print(part)
+        for table in report(study.facts()):
+            console().print("", table)
 
 
 def mapped(
