@@ -11,10 +11,7 @@ from .forms.beam import QUADRATURE_DEGREE, beam_strains
 from .frame import BeamFrame
 from .materials import Elastic
 
-__all__ = ["YIELD_MPA", "BeamStress"]
-
-YIELD_MPA = 35.0
-"""The paper's resin yields at this stress."""
+__all__ = ["BeamStress"]
 
 
 class BeamStress:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from morphing_wing.materials import YIELD_MPA
 from morphing_wing.scene_file import FIDELITIES
 
 __all__ = ["KEYS", "PANELS", "Panel", "coupling", "facts", "reached_at", "words"]
@@ -71,8 +72,9 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
         ``curves``: of each curve the load at which the paper's angle is reached (``reached_at``
         by the face's rotation, ``line_reached_at`` by the deflection line, None: not reached),
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
-        angle), and from which load on the skin passes through something (``contact_from``) and
-        the state is unstable (``unstable_from``). ``fidelities``: the largest relative difference
+        angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere), and from which
+        load on the skin passes through something (``contact_from``) and the state is unstable
+        (``unstable_from``). ``fidelities``: the largest relative difference
         of the angle to that of the finest. ``skin``: angle without skin over angle with it.
     """
     if table.empty:
@@ -142,6 +144,7 @@ def _curve(panel: Panel, rows: pd.DataFrame) -> dict[str, Any]:
         "last_line_deg": _number(line[-1]),
         "coupling_deg": _number(other[-1]),
         "coupling": coupling(angle[-1], other[-1]),
+        "resin_yields_at": reached_at(load, _column(rows, "rib_stress_MPa"), YIELD_MPA),
         "contact_from": _first(load, _column(rows, "contact", 0.0) > 0.0),
         "unstable_from": _first(load, _column(rows, "negative_pivots", 0.0) > 0.0),
     }

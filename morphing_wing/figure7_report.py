@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import shutil
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,8 +15,8 @@ __all__ = ["console", "report"]
 
 
 def console() -> Console:
-    """Return a console on standard output, 132 columns wide where that is no terminal."""
-    return Console(width=None if sys.stdout.isatty() else 132)
+    """Return a console on standard output, 132 columns wide where that has no width of its own."""
+    return Console(width=shutil.get_terminal_size((132, 40)).columns)
 
 
 def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
@@ -29,10 +29,10 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
     """
     yield _table(
         "Figure 7: where the paper's angle is reached, and the coupling at the last load",
-        ["curve", "by the end face", "by the deflection line", "coupling", "no contact forces from",
-         "unstable from"],
-        [[_name(f), words(f), words(f, "line_"), _coupling(f), _load(f, f["contact_from"]),
-          _load(f, f["unstable_from"])] for f in facts["curves"]])
+        ["curve", "by the end face", "by the deflection line", "coupling", "resin yields at",
+         "skin passes through from", "unstable from"],
+        [[_name(f), words(f), words(f, "line_"), _coupling(f), _load(f, f["resin_yields_at"]),
+          _load(f, f["contact_from"]), _load(f, f["unstable_from"])] for f in facts["curves"]])
     if facts["skin"]:
         yield _table(
             "What the skin takes away, at the last load",

@@ -17,7 +17,7 @@ from morphing_wing.scene_file import FIDELITIES
 from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
-    from morphing_wing.figure7 import Curve, Figure7
+    from morphing_wing.figure7_result import Curve, Figure7
     from morphing_wing.path import Path
     from morphing_wing.progress import Progress
 
@@ -126,7 +126,7 @@ def mapped(
     grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, folder: pathlib.Path
 ) -> bool:
     """Run and save the map of each wing asked for; return whether all its points were reached."""
-    from morphing_wing.figure7 import Curve
+    from morphing_wing.figure7_result import Curve
     from morphing_wing.geometry.wing import WingGeometry
     from morphing_wing.reach import reach
 

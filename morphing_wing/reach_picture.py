@@ -13,10 +13,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from morphing_wing.beam_stress import YIELD_MPA
 from morphing_wing.curves import COLOURS, STYLE
+from morphing_wing.materials import FRACTURE_STRETCH, YIELD_MPA
 from morphing_wing.root import write_whole
-from morphing_wing.stretch import FRACTURE_STRETCH
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

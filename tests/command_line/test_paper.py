@@ -7,9 +7,10 @@ import pytest
 from mpi4py import MPI
 
 from morphing_wing import figure7 as module
+from morphing_wing import figure7_result
 from morphing_wing import reach as map_module
 from morphing_wing.cli import main
-from morphing_wing.figure7 import Curve, Figure7
+from morphing_wing.figure7_result import Curve, Figure7
 from morphing_wing.path import Path, State
 from morphing_wing.record import SceneRecord
 
@@ -50,7 +51,7 @@ def asked(monkeypatch, tmp_path):
         return map_module.Reach(path("pressure", pressures, True))
 
     monkeypatch.setattr(module, "figure7", figure7)
-    monkeypatch.setattr(module, "draw", lambda table, file, stopped: file.touch())
+    monkeypatch.setattr(figure7_result, "draw", lambda table, file, stopped: file.touch())
     monkeypatch.setattr(map_module, "reach", reach)
     return found
 

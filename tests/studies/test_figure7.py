@@ -7,7 +7,9 @@ import pytest
 from mpi4py import MPI
 
 from morphing_wing.errors import InputError
-from morphing_wing.figure7 import KEYS, Curve, Figure7, figure7
+from morphing_wing.figure7 import figure7
+from morphing_wing.figure7_facts import KEYS
+from morphing_wing.figure7_result import Curve, Figure7
 from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.newton import Newton, NewtonResult
 from morphing_wing.path import Path

@@ -61,6 +61,12 @@ def test_contact_and_instability_are_told_from_the_first_load_on():
     assert only(table.drop(columns="contact"))["contact_from"] is None
 
 
+def test_resin_yields_where_the_stress_passes_35_MPa():
+    assert only(curve("cables"))["resin_yields_at"] is None
+    fact = only(curve("cables", rib_stress_MPa=[0.0, 20.0, 30.0, 50.0]))
+    assert fact["resin_yields_at"] == pytest.approx(0.25)
+
+
 def test_fidelities_are_compared_with_the_finest_load_by_load():
     coarse = curve("pressure", span_angle_deg=[0.0, 6.3, 18.18])
     fact = only(study(curve("pressure", fidelity="standard"), coarse), "fidelities")
