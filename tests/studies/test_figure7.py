@@ -113,8 +113,11 @@ def test_a_curve_that_stops_is_kept_and_the_others_are_run(monkeypatch, tmp_path
 
 
 @pytest.mark.quick
-def test_a_study_of_nothing_has_an_empty_table():
-    assert Figure7(MPI.COMM_SELF).table().empty
+def test_a_study_whose_first_step_failed_is_written_empty(tmp_path):
+    study = Figure7(MPI.COMM_SELF)
+    assert study.table().empty
+    study.save(tmp_path)
+    assert json.loads((tmp_path / "summary.json").read_text())["curve"] == []
 
 
 @pytest.mark.quick
