@@ -66,7 +66,8 @@ def begin(what, wing):
 # contact force keeps it from that: from there on they are too soft or simply fiction.
 
 pressures = np.linspace(0.0, 0.040, options.points + 1)  # MPa
-tensions = np.linspace(0.0, 0.5, options.points + 1)  # N in each cable
+# N in each cable; closer where the skin buckles and the curve bends.
+tensions = 0.5 * np.linspace(0.0, 1.0, options.points + 1) ** 1.5
 study = figure7([options.fidelity], pressures, tensions, begin=begin)
 
 # Both together
@@ -76,7 +77,7 @@ study = figure7([options.fidelity], pressures, tensions, begin=begin)
 
 wing = Wing(WingGeometry.prototype(), fidelity=options.fidelity)
 progress = begin("25 kPa and 0.2 N in each cable", wing)
-both = wing.actuate(upper=0.025, cable=0.2, on_step=progress, on_cut=progress.cut)
+both = wing.actuate(upper=[0.0125, 0.025], cable=[0.1, 0.2], on_step=progress, on_cut=progress.cut)
 progress.end(both.converged, both.reason)
 
 # What came out

@@ -148,11 +148,11 @@ def _legend(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> list[Line2D]:
                 for name in dict.fromkeys(table["fidelity"])]
     entries += [
         Line2D([], [], color="#333", linewidth=2.0, label="rotation of the end face"),
-        Line2D([], [], color="#333", linewidth=0.9, label="deflection line, as a protractor sees"),
+        Line2D([], [], color="#333", linewidth=0.9, label="deflection line: perhaps what was read"),
     ]
     if "contact" in table and table["contact"].any():
         entries.append(Line2D([], [], color="#333", linewidth=2.0, linestyle=_DASHES,
-                              label="skin passes through itself or a rib"))
+                              label="no contact forces: skin passes through"))
     if "negative_pivots" in table and (table["negative_pivots"] > 0).any():
         entries.append(Line2D([], [], color="k", linestyle="none", marker="x", markersize=10,
                               label="unstable"))

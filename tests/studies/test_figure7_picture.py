@@ -49,10 +49,10 @@ def test_a_curve_is_dashed_into_and_beyond_the_first_state_without_contact_force
     cables = figure.axes[1]
     assert [0.1, 0.2, 0.4] in drawn(cables, "--")
     assert [0.0, 0.1] in drawn(cables, "-")
-    assert "skin passes through itself or a rib" in labels(figure)
+    assert "no contact forces: skin passes through" in labels(figure)
     with_forces = figure7_picture.figure(table.drop(columns="contact"), {})
     assert [0.0, 0.1, 0.2, 0.4] in drawn(with_forces.axes[1], "-")
-    assert "skin passes through itself or a rib" not in labels(with_forces)
+    assert "no contact forces: skin passes through" not in labels(with_forces)
 
 
 def test_the_legend_has_what_is_drawn_and_nothing_else():
