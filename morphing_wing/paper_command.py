@@ -40,7 +40,7 @@ def paper(
     ] = False,
     skin: Annotated[str, typer.Option(metavar="S", help="on, off or both.")] = "both",
     reachable: Annotated[
-        bool, typer.Option("--map", help="Pressure and cables together as well: costs hours.")
+        bool, typer.Option("--map", help="Pressure and cables together as well: costs much.")
     ] = False,
     map_points: Annotated[
         str, typer.Option(metavar="NxM", help="Pressures times tensions of the map.")
