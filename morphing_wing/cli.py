@@ -20,6 +20,8 @@ import typer
 from mpi4py import MPI
 
 from morphing_wing.errors import InputError, one_line
+from morphing_wing.out_folder import check_folder
+from morphing_wing.paper_command import paper
 from morphing_wing.together import (
     BAD_INPUT,
     DONE,
@@ -116,6 +118,9 @@ def scenes(
     return DONE
 
 
+app.command()(paper)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command on all ranks and return its exit status; no exception leaves it.
 
@@ -166,15 +171,6 @@ def or_hint(scene: pathlib.Path) -> pathlib.Path:
         command = f"morphing-wing scenes {scene.stem} > {scene.stem}.toml"
         raise InputError(f"{scene}: no such file, '{command}' writes one")
     return scene
-
-
-def check_folder(folder: pathlib.Path) -> None:
-    """Refuse a folder that cannot be written, without making it."""
-    exists = next(part for part in (folder.absolute(), *folder.absolute().parents) if part.exists())
-    if not exists.is_dir():
-        raise InputError(f"--out {folder}: must be a folder, {exists} is a file")
-    if not os.access(exists, os.W_OK | os.X_OK):
-        raise InputError(f"--out {folder}: must be a folder that can be written")
 
 
 def begin_saving(folder: pathlib.Path) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from morphing_wing.errors import is_number, require
 
-__all__ = ["DRAGON_SKIN_30", "RESIN", "Elastic", "Yeoh"]
+__all__ = ["DRAGON_SKIN_30", "FRACTURE_STRETCH", "RESIN", "YIELD_MPA", "Elastic", "Yeoh"]
 
 BULK_PER_SHEAR = 1000.0
 """Default bulk over initial shear modulus: nearly incompressible (Poisson's ratio 0.4995)."""
@@ -191,5 +191,11 @@ def _check_density(material: Yeoh | Elastic) -> None:
 DRAGON_SKIN_30 = Yeoh((0.117, -0.0006865))
 """Dragon Skin 30 silicone, the paper's fit: C10 = 0.117, C20 = -0.0006865 MPa; 1080 kg/m^3."""
 
+FRACTURE_STRETCH = 4.64
+"""The paper's silicone tears at 364 % strain."""
+
 RESIN = Elastic(E=2500.0, nu=0.35)
 """The ribs' printed resin: the middle of the paper's 2370 to 2640 MPa; 1180 kg/m^3."""
+
+YIELD_MPA = 35.0
+"""The paper's resin yields at this stress."""

@@ -8,16 +8,12 @@ from mpi4py import MPI
 from scipy.spatial.transform import Rotation
 
 from morphing_wing import compat
-from morphing_wing.blocks import Block
 from morphing_wing.forms.beam import rotation, tangent_map
 from morphing_wing.forms.cable import cable_potential
 from morphing_wing.frame import BeamFrame, turned_x
-from morphing_wing.geometry.frame import Frame, local_axes
-from morphing_wing.geometry.rib import KINDS, RibGeometry
-from morphing_wing.geometry.section import Rectangle
+from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.materials import RESIN, Elastic
-from morphing_wing.newton import Newton
-from morphing_wing.system import EquilibriumSystem
+from tests.forms.cantilever import cantilever, tail_after
 
 pytestmark = pytest.mark.quick
 
@@ -41,35 +37,6 @@ def test_rotation_is_the_exponential_and_its_map_its_derivative(theta):
     ends = [Rotation.from_rotvec(theta + sign * h * direction) for sign in (1, -1)]
     turn = (ends[0] * ends[1].inv()).as_rotvec() / (2 * h)
     assert np.allclose(T @ direction, turn, atol=1e-9)
-
-
-def cantilever(n, length=10.0, direction=(1.0, 0.0, 0.0), material=RESIN):
-    """Return a straight bar of n cells, clamped at its start, as a frame of beams."""
-    x = np.linspace(0.0, length, n + 1)
-    points = x[:, None] * np.asarray(direction)
-    bars = np.stack([np.arange(n), np.arange(1, n + 1)], axis=1)
-    kinds = np.full(n, KINDS.index("shaft"))
-    kinds[-1] = KINDS.index("tail")
-    section = Rectangle(1.0, 1.0)
-    frame = Frame(points, bars, kinds, KINDS, local_axes(points, bars),
-                  ({"shaft": section, "tail": section},), np.zeros(n, dtype=int),
-                  np.array([0]), np.array([n]))
-    beams = BeamFrame(MPI.COMM_SELF, frame, material)
-    w = beams.function
-    at_root = np.linalg.norm(w.function_space.tabulate_dof_coordinates(), axis=1) < 1e-9
-    clamped = (6 * np.flatnonzero(at_root)[:, None] + np.arange(6)).ravel()
-    return beams, EquilibriumSystem(beams.comm, [Block(w, clamped)])
-
-
-def tail_after(beams, system, load):
-    """Solve under a dead force (N) and moment (N mm) at the tail; return u and theta there."""
-    dead = fem.Constant(beams.mesh, np.asarray(load, dtype=float))
-    energy = beams.energy - beams.at_ends("tail", ufl.inner(dead, beams.function))
-    system.set_energies([energy], [beams.tangent_correction])
-    newton = Newton(system, "test_beam_", before_tangent=beams.iterate.before_tangent)
-    result = newton.solve(float(np.linalg.norm(load)))
-    assert result.converged, result.reason
-    return beams.end_values("tail", 0)
 
 
 def test_quarter_circle_under_end_moment():

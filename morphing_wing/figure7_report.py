@@ -1,0 +1,71 @@
+"""The facts of Figure 7 as tables for a terminal."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from morphing_wing.figure7_facts import PANELS, words
+
+__all__ = ["console", "report"]
+
+
+def console() -> Console:
+    """Return a console on standard output, 132 columns wide where that has no width of its own."""
+    return Console(width=shutil.get_terminal_size((132, 40)).columns)
+
+
+def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
+    """Yield tables: each curve, and where there are such, the skin and the fidelities.
+
+    Parameters
+    ----------
+    facts
+        See `figure7_facts.facts`.
+    """
+    yield _table(
+        "Figure 7: where the paper's angle is reached, and the coupling at the last load",
+        ["curve", "by the end face", "by the deflection line", "coupling", "resin yields at",
+         "skin passes through from", "unstable from"],
+        [[_name(f), words(f), words(f, "line_"), _coupling(f), _load(f, f["resin_yields_at"]),
+          _load(f, f["contact_from"]), _load(f, f["unstable_from"])] for f in facts["curves"]])
+    if facts["skin"]:
+        yield _table(
+            "What the skin takes away, at the last load",
+            ["curve", "load", "with skin, deg", "without, deg", "without / with"],
+            [[_name(f), _load(f, f["load"]), f"{f['with_deg']:.2f}", f"{f['without_deg']:.2f}",
+              f"{f['without_over_with']:.2f}"] for f in facts["skin"]])
+    if facts["fidelities"]:
+        yield _table(
+            "Fidelities: largest relative difference of the angle",
+            ["curve", "against", "difference", "at"],
+            [[_name(f), f["against"], f"{100 * f['largest_difference']:.1f} %",
+              _load(f, f["at_load"])] for f in facts["fidelities"]])
+
+
+def _table(title: str, headings: list[str], rows: list[list[str]]) -> Table:
+    table = Table(title=title, title_justify="left")
+    for heading in headings:
+        table.add_column(heading)
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _name(fact: dict[str, Any]) -> str:
+    skin = {True: "with skin", False: "no skin"}.get(fact.get("skin"))
+    return ", ".join(filter(None, [fact["panel"], skin, fact["direction"], fact["fidelity"]]))
+
+
+def _coupling(fact: dict[str, Any]) -> str:
+    if fact["coupling"] is None:
+        return "-"
+    return f"{fact['coupling_deg']:.2f} deg, {100 * fact['coupling']:.1f} %"
+
+
+def _load(fact: dict[str, Any], load: float | None) -> str:
+    return "-" if load is None else PANELS[fact["panel"]].words(load)

@@ -1,0 +1,124 @@
+"""The contract of `morphing-wing paper fig7`; the study itself is a stand-in."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+from mpi4py import MPI
+
+from morphing_wing import figure7 as module
+from morphing_wing import figure7_result
+from morphing_wing import reach as map_module
+from morphing_wing.cli import main
+from morphing_wing.figure7_result import Curve, Figure7
+from morphing_wing.path import Path, State
+from morphing_wing.record import SceneRecord
+
+pytestmark = pytest.mark.quick
+
+SCENE = SceneRecord("wing", "draft", 7, "pressure_MPa", MPI.COMM_SELF, {})
+
+
+def path(panel, loads, converged):
+    name, angle = {"pressure": ("upper_MPa", "span_angle_deg"),
+                   "cables": ("cable_N", "chord_angle_deg")}[panel]
+    states = [State({"upper_MPa": 0.0, "lower_MPa": 0.0, "cable_N": 0.0} | {name: load},
+                    {"span_angle_deg": 0.0, "span_line_deg": 0.0, "chord_angle_deg": 0.0,
+                     "chord_line_deg": 0.0} | {angle: 100.0 * load}, 3, 1.0, 1.0, 0, 0.1, True)
+              for load in loads]
+    return Path(states, SCENE, converged, "the end" if converged else "Newton diverged", 0.1)
+
+
+@pytest.fixture
+def asked(monkeypatch, tmp_path):
+    """Replace the study by one that remembers what it was asked for; stop its cables on wish."""
+    monkeypatch.chdir(tmp_path)
+    found = SimpleNamespace(calls=[], cables_converge=True, maps=[])
+
+    def figure7(fidelities, pressures, tensions, skins, directions, comm, begin, done):
+        found.calls.append((fidelities, list(pressures), list(tensions), skins, directions))
+        study = Figure7(comm)
+        for panel, loads in (("pressure", pressures), ("cables", tensions)):
+            ok = panel == "pressure" or found.cables_converge
+            curve = Curve(panel, skins[0], directions[0], fidelities[-1])
+            begin(curve, SimpleNamespace(dofs=7, comm=comm)).end(ok, "")
+            study.paths[curve] = path(panel, loads, ok)
+            done(study, curve, path(panel, [], ok))
+        return study
+
+    def reach(pressures, tensions, fidelity, geometry, begin):
+        found.maps.append((len(pressures), len(tensions), geometry.skin_thickness))
+        return map_module.Reach(path("pressure", pressures, True))
+
+    monkeypatch.setattr(module, "figure7", figure7)
+    monkeypatch.setattr(figure7_result, "draw", lambda table, file, stopped: file.touch())
+    monkeypatch.setattr(map_module, "reach", reach)
+    return found
+
+
+def test_by_default_draft_eight_points_with_skin_and_without_downwards(asked, tmp_path, capsys):
+    assert main(["paper", "fig7"]) == 0
+    ((fidelities, pressures, tensions, skins, directions),) = asked.calls
+    assert (fidelities, skins, directions) == (("draft",), (True, False), ("down",))
+    assert pressures[::8] == pytest.approx([0.0, 0.04]) and len(pressures) == 9
+    assert tensions[::8] == pytest.approx([0.0, 0.5]) and len(tensions) == 9
+    folder = tmp_path / "output" / "fig7"
+    assert {f.name for f in folder.iterdir()} >= {"fig7.png", "table.csv", "summary.json"}
+    assert json.loads((folder / "summary.json").read_text())["converged"] is True
+    said = capsys.readouterr().out
+    assert "results are in output/fig7" in said and "not reached" in said
+
+
+def test_options_choose_what_is_run(asked):
+    assert main(["paper", "fig7", "--fidelity", "draft", "--fidelity", "standard", "--skin", "off",
+                 "--points", "2", "--both-directions", "--out", "here"]) == 0
+    assert asked.calls == [(("draft", "standard"), [0.0, 0.02, 0.04], [0.0, 0.25, 0.5], (False,),
+                            ("down", "up"))]
+
+
+def test_a_curve_that_stopped_is_status_3_and_what_was_reached_is_written(asked, tmp_path):
+    asked.cables_converge = False
+    assert main(["paper", "fig7", "--out", "here"]) == 3
+    summary = json.loads((tmp_path / "here" / "summary.json").read_text())
+    assert summary["converged"] is False
+    assert summary["reason"] == "cables, with skin, down, draft: Newton diverged"
+
+
+def test_the_map_is_run_where_it_is_asked_for(asked, tmp_path):
+    assert main(["paper", "fig7", "--map", "--map-points", "3x2", "--out", "here"]) == 0
+    assert asked.maps == [(3, 2, 1.0), (3, 2, None)]
+    assert (tmp_path / "here" / "map_with_skin_down_draft" / "map.png").exists()
+
+
+@pytest.mark.parametrize("name", ["table2", "table3", "fig5", "fig6"])
+def test_what_is_to_come_says_so(name, asked, capfd):
+    assert refused(capfd, name) == f"morphing-wing: {name}: is not there yet, must be fig7\n"
+
+
+@pytest.mark.parametrize("arguments, sentence", [
+    (["fig8"], "figure = 'fig8': must be fig7"),
+    (["fig7", "--fidelity", "best"], "--fidelity = 'best': must be one of draft, standard"),
+    (["fig7", "--points", "0"], "--points = 0: must be at least 1"),
+    (["fig7", "--points", "many"], "Invalid value for '--points'"),
+    (["fig7", "--skin", "thick"], "--skin = 'thick': must be on, off or both"),
+    (["fig7", "--map", "--map-points", "1x4"], "--map-points = '1x4': must be two numbers"),
+    (["fig7", "--map", "--map-points", "four"], "--map-points = 'four': must be two numbers"),
+    ([], "Missing argument"),
+])
+def test_bad_input_is_one_sentence_and_leaves_nothing(arguments, sentence, asked, tmp_path, capfd):
+    assert sentence in refused(capfd, *arguments)
+    assert asked.calls == [] and list(tmp_path.iterdir()) == []
+
+
+def test_a_file_in_the_place_of_the_folder_is_refused_before_anything_is_run(asked, tmp_path,
+                                                                             capfd):
+    (tmp_path / "taken").write_text("precious")
+    assert "must be a folder" in refused(capfd, "fig7", "--out", "taken")
+    assert asked.calls == []
+
+
+def refused(capfd, *arguments):
+    assert main(["paper", *arguments]) == 2
+    said = capfd.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    return said.err
