@@ -4,7 +4,7 @@ A point x = X + u is opposed to the place y(xi) on a facet at which the distance
 stationary. With the facet's tangents there and their normal n, out of the body,
 
 .. math:: g = (x - y) \cdot n - r, \qquad n = \frac{y_{,1} \times y_{,2}}{|y_{,1} \times y_{,2}|},
-    \qquad \Pi = \tfrac12 \, \epsilon A \, \langle -g \rangle^2
+    \qquad \Pi = \epsilon A \, \phi(\langle -g \rangle)
 
 for a point that stands for an area A of its surface and keeps a distance r from the other (half
 a bar's height, say). xi may be held fixed in the variation, since the distance is stationary in
@@ -14,6 +14,7 @@ balance, their moments too (Wriggers: Computational Contact Mechanics, 2006, cha
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import ufl
@@ -40,6 +41,46 @@ def penetration(gap: Any) -> Any:
     return ufl.conditional(ufl.lt(gap, 0.0), -gap, 0.0)
 
 
-def contact_energy(gap: Any, stiffness: Any) -> Any:
-    """Return the potential in N mm of a point with ``stiffness`` epsilon A in N/mm."""
-    return 0.5 * stiffness * penetration(gap) ** 2
+def contact_energy(gap: Any, stiffness: Any, soft: float) -> Any:
+    """Return the potential in N mm of a point, by `contact_force`."""
+    d = penetration(gap)
+    beyond = 0.5 * d**2 - 0.5 * soft * d + soft**2 / 6.0
+    return stiffness * ufl.conditional(ufl.lt(d, soft), d**3 / (6.0 * soft), beyond)
+
+
+def contact_force(gap: Any, stiffness: Any, soft: float) -> Any:
+    """Return the force in N that pushes a point out.
+
+    It grows with the square of the penetration up to ``soft`` (mm), as the pressure of rough
+    surfaces does, and with ``stiffness`` (N/mm) beyond.
+    """
+    d = penetration(gap)
+    return stiffness * ufl.conditional(ufl.lt(d, soft), d**2 / (2.0 * soft), d - 0.5 * soft)
+
+
+def contact_correction(
+    gap: Callable[[Any], Any], stiffness: Any, soft: float, w: Any, w_last: Any, step: Any
+) -> Any:
+    """Return what turns the consistent tangent's integrand into a mixed-point one.
+
+    The force that multiplies the second variation of the gap is the one that the tangent of the
+    iterate before has predicted, and never pulls; see `morphing_wing.forms.mixed_point`.
+
+    Parameters
+    ----------
+    gap
+        From the unknowns to g.
+    stiffness, soft
+        See `contact_force`.
+    w, w_last, step
+        Present unknown, the one of the iteration before, and the change between them or zero;
+        functions of one space.
+    """
+    space = w.ufl_function_space()
+    v, d = ufl.TestFunction(space), ufl.TrialFunction(space)
+    last = contact_force(gap(w_last), stiffness, soft)
+    predicted = last + ufl.derivative(last, w_last, step)
+    predicted = ufl.conditional(ufl.gt(predicted, 0.0), predicted, 0.0)
+    present = contact_force(gap(w), stiffness, soft)
+    excess = ufl.conditional(ufl.lt(gap(w), 0.0), present - predicted, 0.0)
+    return excess * ufl.derivative(ufl.derivative(gap(w), w, v), w, d)

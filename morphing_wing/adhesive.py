@@ -46,15 +46,13 @@ class GluedPatches:
     def __init__(
         self, comm: MPI.Comm, points: PatchPoints, origins: np.ndarray, law: Adhesive
     ) -> None:
-        self._comm, self.law, self._all = comm, law, points
+        self.law, self._all = law, points
         n, size = points.shapes.shape
-        bounds = np.linspace(0, n, comm.size + 1).astype(int)
-        self._mine = slice(bounds[comm.rank], bounds[comm.rank + 1])
-        self._origins = origins[self._mine]
         self.history = np.ones(n)
         self.utilisation = np.zeros(n)
-        self._mesh = PointMesh(bounds[comm.rank + 1] - bounds[comm.rank], 3 * size + 6, size + 11,
-                               "glue")
+        self._mesh = PointMesh(comm, n, 3 * size + 6, size + 11, "glue")
+        self._mine = self._mesh.mine
+        self._origins = origins[self._mine]
         self.function, self.block = self._mesh.function, self._mesh.block
         self.iterate = Iterate(self.function)
         self._give()
@@ -110,7 +108,7 @@ class GluedPatches:
         """Take the present state as converged: what broke stays broken. Collective."""
         if not self.law.fails:
             return
-        self.utilisation = self._gathered(self._lambda())
+        self.utilisation = self._mesh.gathered(self._lambda())
         self.history = np.maximum(self.history, self.utilisation)
         self._give()
 
@@ -149,9 +147,6 @@ class GluedPatches:
         law = self.law
         e = 0.5 * (law.stiffness * np.maximum(along, 0.0) ** 2 + law.shear_stiffness * across)
         return np.sqrt(np.maximum(e, 0.0) / law.onset)
-
-    def _gathered(self, values: np.ndarray) -> np.ndarray:
-        return np.concatenate(self._comm.allgather(values))
 
     def _give(self) -> None:
         part, points = self._mine, self._all

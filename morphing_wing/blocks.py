@@ -23,7 +23,7 @@ class Block:
     absent
         Local dofs (flattened, ghosts too) that are no unknowns: nothing depends on them.
     local
-        Whether the function's mesh is this rank's alone; its dofs then stand for others' unknowns.
+        Whether its dofs stand for others' unknowns, by numbers that may change.
     refresh
         Called after new values came into the function.
     numbers

@@ -17,8 +17,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from . import compat
-from .forms.contact import contact_energy, contact_gap, penetration
-from .forms.mixed_point import mixed_point_correction
+from .forms.contact import contact_correction, contact_energy, contact_force, contact_gap
 from .geometry.facets import closest, gaps, project, shape_functions
 from .iterate import Iterate
 from .points import PointMesh
@@ -30,6 +29,9 @@ REACH = 3.0
 
 BY_DESIGN = 0.3
 """What is nearer than this (mm) in the undeformed structure is not in contact, but joined."""
+
+SOFT = 0.01
+"""Penetration in mm up to which contact is softer, so that Newton's method meets no kink."""
 
 DEEPEST = 0.1
 """How far (mm) one Newton step may lead a node in, if none is deeper already."""
@@ -94,12 +96,10 @@ class Contact:
         self._weight = [stiffness * np.where(apart, side.area, 0.0)
                         for side, apart in zip(self._sides, self._apart, strict=True)]
         n = sum(len(side.area) for side in self._sides)
-        bounds = np.linspace(0, n, comm.size + 1).astype(int)
-        self._mine = slice(bounds[comm.rank], bounds[comm.rank + 1])
         self._facet = np.full(n, -1)
-        self._count = bounds[comm.rank + 1] - bounds[comm.rank]
-        self._points = PointMesh(self._count, 3 + 3 * facet_size, 3 * facet_size + 14, "pairs")
-        self._place(np.zeros(self._count, dtype=bool))
+        self._points = PointMesh(comm, n, 3 + 3 * facet_size, 3 * facet_size + 14, "pairs")
+        self._mine = self._points.mine
+        self._place()
         self.function, self.block = self._points.function, self._points.block
         self.block.refresh = self._refresh
         self.iterate = Iterate(self.function)
@@ -110,11 +110,10 @@ class Contact:
             point, place, first, second = _kinematics(q, data, facet_size)
             return contact_gap(point, place, first, second, data[3 * facet_size + 12])
 
-        self.energy = self._points.sum(contact_energy(gap(self.function), weight))
-        self.tangent_correction = self._points.sum(mixed_point_correction(
-            lambda q: [penetration(gap(q))], [weight], self.function, self.iterate.last,
-            self.iterate.step))
-        self._force = self._points.sum(weight * penetration(gap(self.function)))
+        self.energy = self._points.sum(contact_energy(gap(self.function), weight, SOFT))
+        self.tangent_correction = self._points.sum(contact_correction(
+            gap, weight, SOFT, self.function, self.iterate.last, self.iterate.step))
+        self._force = self._points.sum(contact_force(gap(self.function), weight, SOFT))
 
     # -- which facet opposes which node -------------------------------------------------------
 
@@ -222,13 +221,13 @@ class Contact:
             rows[used, 3:] = opposed.reshape(used.sum(), size - 3)
             start += len(rows)
         rows = np.concatenate(table)[self._mine]
-        self._place(self._facet[self._mine] >= 0)
+        self._place()
         system.renumber(self.block, self._points.as_dofs(rows, fill=-1))
         self.iterate.accept()
 
     # -- what the energy is given -------------------------------------------------------------
 
-    def _place(self, used: np.ndarray) -> None:
+    def _place(self) -> None:
         """Set the reference positions of this rank's pairs, and their weights."""
         nodes, facets, weight = [], [], []
         start = 0
@@ -241,7 +240,8 @@ class Contact:
         radius = [side.radius for side in self._sides]
         self._X, self._Y, self._radius, self._weights = (
             np.concatenate(part)[self._mine] for part in (nodes, facets, radius, weight))
-        self._used, self._xi = used, np.zeros((self._count, 2))
+        self._used = self._facet[self._mine] >= 0
+        self._xi = np.zeros((len(self._mine), 2))
         self._refresh()
 
     def _refresh(self) -> None:

@@ -10,7 +10,7 @@ from .elastomer import Elastomer
 from .frame import BeamFrame
 from .surface import Bars, Surface
 
-STIFFNESS = 20.0
+STIFFNESS = 40.0
 """Contact pressure per penetration, N/mm^3."""
 
 

@@ -19,27 +19,28 @@ from .blocks import Block
 
 
 class PointMesh:
-    """Points of this rank alone, with ``size`` unknowns and ``data_size`` given numbers each.
+    """Points with ``size`` unknowns and ``data_size`` given numbers each, shared out to the ranks.
 
     Attributes
     ----------
+    mine : (n_mine,) int array
+        Which of all points this rank has.
     function
         The unknowns.
     block
         Their numbers in a system, -1 at first: see `EquilibriumSystem.renumber`.
     """
 
-    def __init__(self, n_points: int, size: int, data_size: int, name: str) -> None:
-        # Without a cell there is no mesh; a point too many weighs nothing.
-        n = max(n_points, 1)
-        ends = np.stack([np.arange(n + 1.0), np.zeros(n + 1), np.zeros(n + 1)], axis=1)
-        cells = np.stack([np.arange(n), np.arange(n) + 1], axis=1)
-        self.mesh = compat.create_mesh(MPI.COMM_SELF, "interval", cells, ends)
-        self.n_points = n_points
+    def __init__(self, comm: MPI.Comm, n_points: int, size: int, data_size: int, name: str) -> None:
+        ends = np.zeros((2 * n_points, 3))
+        ends[:, 0] = np.arange(n_points).repeat(2) * 2.0 + np.tile([0.0, 1.0], n_points)
+        cells = np.arange(2 * n_points).reshape(n_points, 2)
+        self.mesh = compat.create_mesh(comm, "interval", cells, ends)
+        self.mine = compat.original_cells(self.mesh).astype(int)
         self.function = fem.Function(compat.discontinuous_space(self.mesh, 0, (size,)), name=name)
         self._data = fem.Function(compat.discontinuous_space(self.mesh, 0, (data_size,)))
         self._cells = np.array([self.function.function_space.dofmap.cell_dofs(c)[0]
-                                for c in range(n)])[:n_points]
+                                for c in range(len(self.mine))], dtype=int)
         self.block = Block(self.function, local=True)
 
     @property
@@ -48,20 +49,26 @@ class PointMesh:
         return self._data
 
     def set_data(self, rows: np.ndarray) -> None:
-        """Set the given numbers of all points, (n_points, data_size)."""
+        """Set the given numbers of this rank's points, (n_mine, data_size)."""
         self._data.x.array.reshape(-1, rows.shape[1])[self._cells] = rows
 
     def values(self) -> np.ndarray:
-        """Return the unknowns, (n_points, size)."""
+        """Return the unknowns of this rank's points, (n_mine, size)."""
         return self.function.x.array.reshape(-1, self.function.function_space.dofmap.index_map_bs)[
             self._cells]
 
     def as_dofs(self, rows: np.ndarray, fill: float = 0) -> np.ndarray:
-        """Return rows (n_points, size) in the order of the function's dofs."""
+        """Return rows (n_mine, size) in the order of the function's dofs."""
         size = self.function.function_space.dofmap.index_map_bs
         table = np.full((len(self.function.x.array) // size, size), fill, dtype=rows.dtype)
         table[self._cells] = rows
         return table.ravel()
+
+    def gathered(self, values: np.ndarray) -> np.ndarray:
+        """Return this rank's values (n_mine, ...) with the others', in order. Collective."""
+        parts = self.mesh.comm.allgather((self.mine, values))
+        order = np.argsort(np.concatenate([points for points, _ in parts]))
+        return np.concatenate([part for _, part in parts])[order]
 
     def sum(self, integrand: Any) -> Any:
         """Return the sum of an integrand over all points, a UFL functional."""

@@ -75,7 +75,7 @@ class Scene(ABC):
 
     @property
     def kept_blocks(self) -> list[Block]:
-        """Blocks whose functions are kept with a state; what is a rank's own follows from them."""
+        """Blocks whose functions are kept with a state; those of the others follow from them."""
         return [block for block in self.system.blocks if not block.local]
 
     @cached_property

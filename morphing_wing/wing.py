@@ -298,7 +298,7 @@ class Wing(Scene):
             self._options_prefix,
             regularisation=self._regularisation(),
             expected_negative=self.body.n_pressures(),
-            max_iterations=60 if self.has_skin else 25,
+            max_iterations=30 if self.has_skin else 25,
             before_tangent=self.before_tangent,
             admissible=self.admissible if self.contact is not None else None,
         )
