@@ -30,7 +30,7 @@ REACH = 3.0
 BY_DESIGN = 0.3
 """What is nearer than this (mm) in the undeformed structure is not in contact, but joined."""
 
-SOFT = 0.01
+SOFT = 0.02
 """Penetration in mm up to which contact is softer, so that Newton's method meets no kink."""
 
 DEEPEST = 0.1

@@ -73,8 +73,8 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
         by the face's rotation, ``line_reached_at`` by the deflection line, None: not reached),
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
         angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere), and from which
-        load on the skin passes through something (``contact_from``) and the state is unstable
-        (``unstable_from``). ``fidelities``: the largest relative difference
+        load on the skin touches something (``touching_from``), or passes through it for want of
+        contact forces (``contact_from``), and the state is unstable (``unstable_from``). ``fidelities``: the largest relative difference
         of the angle to that of the finest. ``skin``: angle without skin over angle with it.
     """
     if table.empty:
@@ -146,6 +146,7 @@ def _curve(panel: Panel, rows: pd.DataFrame) -> dict[str, Any]:
         "coupling": coupling(angle[-1], other[-1]),
         "resin_yields_at": reached_at(load, _column(rows, "rib_stress_MPa"), YIELD_MPA),
         "contact_from": _first(load, _column(rows, "contact", 0.0) > 0.0),
+        "touching_from": _first(load, _column(rows, "touching", 0.0) > 0.0),
         "unstable_from": _first(load, _column(rows, "negative_pivots", 0.0) > 0.0),
     }
 

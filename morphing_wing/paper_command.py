@@ -39,6 +39,9 @@ def paper(
         bool, typer.Option("--both-directions/--one-direction", help="Up as well, or only down.")
     ] = False,
     skin: Annotated[str, typer.Option(metavar="S", help="on, off or both.")] = "both",
+    contact: Annotated[
+        bool, typer.Option("--contact/--no-contact", help="Contact forces in the pocket, or none.")
+    ] = True,
     reachable: Annotated[
         bool, typer.Option("--map", help="Pressure and cables together as well: costs much.")
     ] = False,
@@ -68,10 +71,10 @@ def paper(
         fidelities,
         np.linspace(0.0, LARGEST_MPA, points + 1), np.linspace(0.0, LARGEST_N, points + 1),
         SKINS[skin], ("down", "up") if both_directions else ("down",),
-        comm=comm, begin=announced, done=lambda *found: saved(folder, *found),
+        comm=comm, begin=announced, done=lambda *found: saved(folder, *found), contact=contact,
     )
     say(study)
-    reached = grid is None or mapped(grid, fidelities, skin, folder)
+    reached = grid is None or mapped(grid, fidelities, skin, folder, contact)
     typer.echo(f"results are in {folder}")
     return DONE if study.converged and reached else STOPPED
 
@@ -123,7 +126,8 @@ def say(study: Figure7) -> None:
 
 
 def mapped(
-    grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, folder: pathlib.Path
+    grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, folder: pathlib.Path,
+    contact: bool,
 ) -> bool:
     """Run and save the map of each wing asked for; return whether all its points were reached."""
     from morphing_wing.figure7_result import Curve
@@ -137,7 +141,7 @@ def mapped(
             found = reach(
                 np.linspace(0.0, LARGEST_MPA, grid[0]), np.linspace(0.0, LARGEST_N, grid[1]),
                 fidelity, curve.shape(WingGeometry.prototype()),
-                begin=lambda wing, c=curve: announced(c, wing),
+                begin=lambda wing, c=curve: announced(c, wing), contact=contact,
             )
             found.save(folder / curve.slug)
             whole = whole and found.path.converged

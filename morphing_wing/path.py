@@ -37,7 +37,9 @@ class State:
     measures
         What the scene measures, e.g. ``span_angle_deg`` (phi_1, rotation of the tip face, degrees),
         ``span_line_deg`` (its deflection line), ``chord_angle_deg`` (phi_2), ``chord_line_deg``,
-        ``gap_mm``, ``contact`` (1 where the skin passes through itself or a rib, else 0).
+        ``gap_mm``, ``touching`` (1 where something presses on something), ``contact_force_N``,
+        ``penetration_mm``; without contact forces ``contact`` (1 where the skin passes through
+        itself or a rib, else 0).
     newton_iterations
         Iterations that the step took.
     energy_Nmm

@@ -31,7 +31,7 @@ from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.geometry.wing import WingGeometry
-from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
+from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
 
 __all__ = ["FIDELITIES", "SceneFile", "located", "parse_scene", "read_scene"]
@@ -59,7 +59,8 @@ class SceneFile:
     geometry
         Its geometry, mm and degrees.
     materials
-        Keyword arguments of the scene: ``material``, or ``elastomer`` and ``resin``.
+        Keyword arguments of the scene: ``material``, or ``elastomer`` and ``resin``, of a wing
+        ``adhesive`` and ``contact`` too.
     loads
         Keyword arguments of its load method: ``upper`` and ``lower`` in MPa, ``cable`` in N,
         ``torque`` in N mm, each a tuple of one value or of one value a load step.
@@ -123,7 +124,7 @@ def parse_scene(text: str, name: str, fidelity: str | None = None) -> SceneFile:
         allowed = FIDELITIES[keys.scene]
         require(fidelity in allowed, "fidelity", fidelity, "", one_of(allowed))
         geometry = geometry_of(keys.scene, keys.geometry)
-        materials = materials_of(keys)
+        materials = materials_of(keys, geometry)
         return SceneFile(keys.scene, geometry, materials, loads_of(keys, geometry), fidelity)
 
 
@@ -153,7 +154,7 @@ def rib_of_wing(keys: RibKeys, base: RibGeometry) -> RibGeometry:
         return dataclasses.replace(base, **given)
 
 
-def materials_of(keys: Any) -> dict[str, Any]:
+def materials_of(keys: Any, geometry: Any) -> dict[str, Any]:
     """Return materials by the names under which the scene takes them; by default the paper's."""
     materials: dict[str, Any] = {}
     if "elastomer" in type(keys).model_fields:
@@ -163,6 +164,12 @@ def materials_of(keys: Any) -> dict[str, Any]:
     if "resin" in type(keys).model_fields:
         with located("resin", type(keys.resin)):
             materials["resin"] = Elastic(**({"E": RESIN.E, "nu": RESIN.nu} | keys.resin.given()))
+    if keys.scene == "wing":
+        materials["contact"] = keys.contact
+        if keys.adhesive is not None:
+            given = {"stiffness": geometry.glue_stiffness} | keys.adhesive.given()
+            with located("adhesive", type(keys.adhesive)):
+                materials["adhesive"] = Adhesive(**given)
     if len(materials) == 1:
         return {"material": next(iter(materials.values()))}
     return materials

@@ -24,6 +24,7 @@ from morphing_wing.scene_values import (
     Pressure,
     Tension,
     Torque,
+    Toughness,
     or_none,
 )
 
@@ -118,6 +119,15 @@ class ResinKeys(Keys):
     density: Density | None = None
 
 
+class AdhesiveKeys(Keys):
+    """``[adhesive]``: glue that can fail; without this table it is elastic."""
+
+    stiffness: GlueStiffness | None = None
+    strength: Modulus | None = None
+    shear_strength: Modulus | None = None
+    toughness: Toughness | None = None
+
+
 class PressureKeys(Keys):
     """``[loads]`` of a spar."""
 
@@ -165,7 +175,9 @@ class WingFile(Keys):
 
     scene: Literal["wing"]
     fidelity: Text | None = None
+    contact: bool = True
     geometry: WingKeys
+    adhesive: AdhesiveKeys | None = None
     elastomer: ElastomerKeys = ElastomerKeys()
     resin: ResinKeys = ResinKeys()
     loads: WingLoadKeys

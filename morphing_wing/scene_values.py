@@ -21,6 +21,7 @@ __all__ = [
     "Pressure",
     "Tension",
     "Torque",
+    "Toughness",
     "or_none",
 ]
 
@@ -88,6 +89,7 @@ def evenly_spaced(table: dict[str, Any], kind: str) -> tuple[float, ...]:
 Length = Annotated[float, measured("length")]
 Angle = Annotated[float, measured("angle")]
 GlueStiffness = Annotated[float, measured("stiffness per area")]
+Toughness = Annotated[float, measured("energy per area")]
 Modulus = Annotated[float, measured("pressure")]
 Density = Annotated[float, measured("density")]
 Point = Annotated[list[Length], Field(min_length=3, max_length=3)]

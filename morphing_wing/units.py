@@ -22,6 +22,7 @@ KINDS = {
     "torque": ("N mm", "5 N mm"),
     "angle": ("deg", "70 deg"),
     "stiffness per area": ("N/mm^3", "50 N/mm^3"),
+    "energy per area": ("N/mm", "0.5 N/mm"),
     "density": ("kg/m^3", "1080 kg/m^3"),
 }
 """What can be measured: the unit that the package computes in, and an example of a text."""

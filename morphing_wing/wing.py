@@ -267,6 +267,8 @@ class Wing(Scene):
             "geometry": asdict(self.geometry),
             "elastomer": asdict(self.elastomer),
             "resin": asdict(self.resin),
+            "adhesive": asdict(self.glue.law) if self.glue is not None else None,
+            "contact": self.contact is not None,
             "element": self.body.element.name,
         }
 
@@ -298,7 +300,7 @@ class Wing(Scene):
             self._options_prefix,
             regularisation=self._regularisation(),
             expected_negative=self.body.n_pressures(),
-            max_iterations=30 if self.has_skin else 25,
+            max_iterations=40 if self.has_skin else 25,
             before_tangent=self.before_tangent,
             admissible=self.admissible if self.contact is not None else None,
         )
