@@ -74,8 +74,9 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
         angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere), and from which
         load on the skin touches something (``touching_from``), or passes through it for want of
-        contact forces (``contact_from``), and the state is unstable (``unstable_from``). ``fidelities``: the largest relative difference
-        of the angle to that of the finest. ``skin``: angle without skin over angle with it.
+        contact forces (``contact_from``), and the state is unstable (``unstable_from``).
+        ``fidelities``: the largest relative difference of the angle to that of the finest.
+        ``skin``: angle without skin over angle with it.
     """
     if table.empty:
         return {"curves": [], "fidelities": [], "skin": []}
