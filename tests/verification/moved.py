@@ -44,6 +44,29 @@ class Moved:
         """Give a held face a displacement in mm along an axis."""
         self.body.function.x.array[self._dofs(face, axis)] = by
 
+    def lead(self, face, axis, start, end):
+        """Move a held face from one displacement in mm to another, in as many steps as it takes.
+
+        ``on_step`` is called with the displacement after each step.
+        """
+        values, here, step = self.body.function.x.array, start, end - start
+        while here != end:
+            last = values.copy()
+            there = end if abs(end - here) < 1.01 * abs(step) else here + step
+            self.move(face, axis, there)
+            try:
+                self.solve()
+            except AssertionError:
+                values[:] = last
+                step /= 2
+                assert abs(step) > abs(end - start) / 128, f"stopped at {here}"
+                continue
+            here = there
+            self.on_step(there)
+
+    def on_step(self, displacement):
+        """Do nothing; replace it to be told of each step."""
+
     def solve(self, force=1e-3):
         """Solve, find anew what touches what, and take the state as converged."""
         contact = self.part if isinstance(self.part, Contact) else None
