@@ -17,10 +17,10 @@ from morphing_wing.geometry.hexmesh import breakpoints, swept_blocks, uniform
 from morphing_wing.materials import Adhesive, Yeoh
 from tests.verification.moved import Moved, glued
 
-HEIGHT, WIDTH, FREE, GLUED = 1.0, 1.0, 24.0, 40.0
+HEIGHT, WIDTH, FREE, GLUED = 1.0, 1.0, 24.0, 36.0
 BEAM = Yeoh((200.0,), bulk=800.0 / 3.0)  # Poisson's ratio is nothing
 YOUNG, INERTIA = 800.0, WIDTH * HEIGHT**3 / 12.0
-DECAY = 1.0 / 2.5  # lambda in 1/mm
+DECAY = 1.0 / 4.0  # lambda in 1/mm
 STIFFNESS = 4.0 * YOUNG * INERTIA * DECAY**4 / WIDTH
 STRENGTH = 0.01
 ONSET = STRENGTH**2 / (2.0 * STIFFNESS)
@@ -29,7 +29,7 @@ LAW = Adhesive(STIFFNESS, STRENGTH, 8.0 * ONSET, 0.2 * STRENGTH)
 
 def beam(law=LAW):
     """The beam: free end at x = 0, glue from ``FREE`` on."""
-    x, _ = breakpoints((FREE, uniform(8)), (GLUED, uniform(40)))
+    x, _ = breakpoints((FREE, uniform(12)), (GLUED, uniform(90)))
 
     def faces(midpoints, normals):
         return {"below": normals[:, 1] < 0, "end": normals[:, 0] < 0, "sides": normals[:, 2] != 0}
@@ -81,7 +81,7 @@ def elastic():
 def propagated():
     # A crack that starts from a 24 mm arm runs 15 mm; delta goes with the arm's square.
     force = np.sqrt(2.0 * YOUNG * INERTIA * WIDTH * LAW.toughness)
-    arms = np.linspace(0.6 * (FREE + 2.5), FREE + 20.0, 80)
+    arms = np.linspace(0.6 * (FREE + 4.0), FREE + 18.0, 50)
     return peeled(beam(), [opening(force / arm, arm) for arm in arms])
 
 
@@ -115,18 +115,18 @@ def test_damage_begins_when_the_strength_is_reached():
 
 def test_a_growing_crack_takes_its_toughness(propagated):
     _, _, at, work, stored, dissipated = propagated.T
-    a, b = np.searchsorted(at, [FREE + 4.0, FREE + 14.0])
+    a, b = np.searchsorted(at, [FREE + 4.0, FREE + 11.0])
     area = WIDTH * (at[b] - at[a])
     print("PEEL G", (dissipated[b] - dissipated[a]) / area / LAW.toughness - 1,
           ((work - stored)[b] - (work - stored)[a]) / area / LAW.toughness - 1, at[a], at[b])
-    assert area > 8.0
+    assert area > 6.0
     for spent in (dissipated, work - stored):
         assert (spent[b] - spent[a]) / area == pytest.approx(LAW.toughness, rel=0.02)
 
 
 def test_pull_and_opening_of_a_growing_crack_are_those_of_fracture_mechanics(propagated):
     end, pull, at, *_ = propagated.T
-    grown = (at > FREE + 3.0) & (at < FREE + 15.0)
+    grown = (at > FREE + 3.0) & (at < FREE + 12.0)
     assert grown.sum() > 10
     arm = np.sqrt(2.0 * YOUNG * INERTIA * WIDTH * LAW.toughness) / pull[grown]
     print("PEEL LEFM", np.abs(opening(pull[grown], arm) / end[grown] - 1).max())
