@@ -40,7 +40,7 @@ SMALLEST_PART = 1.0 / 16.0
 CLOSE = 1e-4
 """Differences of a gap (mm) that are none."""
 
-ALIKE = 0.1
+ALIKE = 0.5
 """Part of a penetration by which two facets may differ on it: at their edge both are right."""
 
 

@@ -16,7 +16,7 @@ MESHING = SparMeshing(
     cavity_length=two_sided(6, 1.5), wall_length=uniform(1), cavity_width=geometric(4, 0.7),
     side_thickness=uniform(1), top_thickness=uniform(2), cavity_height=uniform(2),
     middle_thickness=uniform(2))
-SUCTIONS = [-0.002, -0.03]
+SUCTIONS = [-0.002, -0.05]
 """In MPa: one under which the walls stay apart, one under which they meet."""
 
 
@@ -45,7 +45,7 @@ def test_with_contact_they_stop_each_other_and_the_way_goes_on(with_contact):
     assert (first["touching"], last["touching"]) == (0.0, 1.0)
     assert first["contact_force_N"] == 0.0 < last["contact_force_N"]
     assert last["penetration_mm"] < 0.01 * GEOMETRY.top_thickness
-    assert last["gap_mm"] == pytest.approx(-last["penetration_mm"], rel=2 * ALIKE, abs=CLOSE)
+    assert last["gap_mm"] == pytest.approx(-last["penetration_mm"], rel=ALIKE, abs=CLOSE)
 
 
 def test_contact_force_is_what_the_suction_leaves_to_the_floor(with_contact):

@@ -24,7 +24,7 @@ BETA = np.sqrt(SHEAR_STIFFNESS / (YOUNG * THICKNESS))
 
 
 def strip(length, cells, toughness):
-    """The strip, kept from bending as half of a double lap is, pulled ``BARE`` mm beyond its glue."""
+    """The strip, kept from bending as half of a double lap is, bare for ``BARE`` mm at its end."""
     def faces(midpoints, normals):
         return {"glued": normals[:, 1] < 0, "middle": normals[:, 1] > 0,
                 "sides": normals[:, 2] != 0, "end": normals[:, 0] > 0}
@@ -33,7 +33,8 @@ def strip(length, cells, toughness):
     lines = x, THICKNESS * uniform(1), WIDTH * uniform(1)
     grid = swept_blocks(lines, np.ones((cells + 2, 1, 1), int), {1: "body"}, faces=faces)
     law = Adhesive(STIFFNESS, STRENGTH, toughness, SHEAR_STRENGTH)
-    return Moved(grid, STRIP, "Q1 enhanced", glued("glued", law, ((-1.0, -1.0, -1.0), (length, 1.0, 2.0))),
+    box = ((-1.0, -1.0, -1.0), (length, 1.0, 2.0))
+    return Moved(grid, STRIP, "Q1 enhanced", glued("glued", law, box),
                  symmetry={"middle": 1, "sides": 2, "end": 0})
 
 

@@ -55,7 +55,8 @@ def peeled(scene, ends):
         pull = scene.reaction("end", 1)
         work += 0.5 * (pull + before[1]) * (end - before[0])
         before = end, pull
-        rows.append((end, pull, front(scene), work, scene.stored(), scene.part.dissipated(), turned(scene)))
+        rows.append((end, pull, front(scene), work, scene.stored(), scene.part.dissipated(),
+                     turned(scene)))
 
     scene.on_step = measure
     for start, end in zip([0.0, *ends[:-1]], ends, strict=True):
