@@ -53,7 +53,6 @@ def test_contact_force_is_what_the_suction_leaves_to_the_floor(with_contact):
     suction = -path[-1].load["upper_MPa"]
     area = 0.5 * GEOMETRY.cavity_length * GEOMETRY.cavity_width
     force = path[-1].measures["contact_force_N"]
-    print('SPAR', force/suction/area, path[-1].measures, len(path))
     # The part of the ceiling that lies on the floor is carried by it, the rest by the side walls.
     assert 0.2 * suction * area < force < suction * area
 

@@ -104,7 +104,6 @@ def test_work_tends_to_what_is_stored_and_dissipated_with_the_square_of_the_step
                                np.linspace(kink, 1.02 * LAST, n + 1)[1:]])
         rows = pulled(scene, tops)
         errors.append(np.abs(rows[:, 3]).max() / rows[-1, 4])
-    print("WORK", errors)
     assert errors[1] < 5e-3
 
 
@@ -129,7 +128,6 @@ def test_glues_residual_is_its_potentials_derivative_and_tangent_the_residuals(b
         system.residual(x + h * d, moved)
         energy_errors.append(abs(system.energies()[0] - start - h * residual.dot(d)))
         residual_errors.append((moved - residual - tangent * h).norm())
-    print("TAYLOR", by, kappa, energy_errors, residual_errors, residual.norm())
     orders = [np.log2(np.array(e[:-1]) / np.array(e[1:])) for e in (energy_errors, residual_errors)]
     assert orders[0] == pytest.approx(2.0, abs=0.1)
     linear = by < kappa

@@ -17,19 +17,19 @@ from morphing_wing.geometry.hexmesh import breakpoints, swept_blocks, uniform
 from morphing_wing.materials import Adhesive, Yeoh
 from tests.verification.moved import Moved, glued
 
-HEIGHT, WIDTH, FREE, GLUED = 1.0, 1.0, 60.0, 30.0
+HEIGHT, WIDTH, FREE, GLUED = 1.0, 1.0, 30.0, 30.0
 BEAM = Yeoh((200.0,), bulk=800.0 / 3.0)  # Poisson's ratio is nothing
 YOUNG, INERTIA = 800.0, WIDTH * HEIGHT**3 / 12.0
 DECAY = 1.0 / 2.5  # lambda in 1/mm
 STIFFNESS = 4.0 * YOUNG * INERTIA * DECAY**4 / WIDTH
-STRENGTH = 0.01
+STRENGTH = 0.001
 ONSET = STRENGTH**2 / (2.0 * STIFFNESS)
-LAW = Adhesive(STIFFNESS, STRENGTH, 8.0 * ONSET, 0.2 * STRENGTH)
+LAW = Adhesive(STIFFNESS, STRENGTH, 5.0 * ONSET, 0.2 * STRENGTH)
 
 
 def beam(law=LAW):
     """The beam: free end at x = 0, glue from ``FREE`` on."""
-    x, _ = breakpoints((FREE, uniform(20)), (GLUED, uniform(60)))
+    x, _ = breakpoints((FREE, uniform(12)), (GLUED, uniform(60)))
 
     def faces(midpoints, normals):
         return {"below": normals[:, 1] < 0, "end": normals[:, 0] < 0, "sides": normals[:, 2] != 0}
@@ -81,20 +81,19 @@ def front(scene):
 @pytest.fixture(scope="module")
 def elastic():
     scene = beam()
-    return scene, peeled(scene, [0.1])[0]
+    return scene, peeled(scene, [0.005])[0]
 
 
 @pytest.fixture(scope="module")
 def propagated():
-    # A crack that starts from a 60 mm arm runs 15 mm; delta goes with the arm's square.
+    # A crack that starts from a 30 mm arm runs 15 mm; delta goes with the arm's square.
     force = np.sqrt(2.0 * YOUNG * INERTIA * WIDTH * LAW.toughness)
-    arms = np.linspace(0.75 * FREE, FREE + 16.0, 70)
+    arms = np.linspace(0.75 * FREE, FREE + 15.0, 120)
     return peeled(beam(), [opening(force / arm, arm) for arm in arms])
 
 
 def test_initial_stiffness_is_that_of_the_beam_on_its_foundation(elastic):
     _, (end, pull, *_) = elastic
-    print("PEEL stiffness", end / pull / opening(1.0, FREE + 1 / DECAY) - 1)
     assert end / pull == pytest.approx(opening(1.0, FREE + 1 / DECAY), rel=0.02)
 
 
@@ -107,13 +106,12 @@ def test_strength_is_reached_at_the_pull_of_the_beam_on_its_foundation(elastic):
         np.cos(x) + DECAY * FREE * (np.cos(x) - np.sin(x)))
     onset = STRENGTH / STIFFNESS / tip
     found = pull / scene.part.utilisation[first]
-    print("PEEL onset", found / onset - 1, x)
     assert found == pytest.approx(onset, rel=0.02)
 
 
 def test_damage_begins_when_the_strength_is_reached():
     scene = beam()
-    end = peeled(scene, [0.1])[0, 0] / scene.part.utilisation.max()
+    end = peeled(scene, [0.005])[0, 0] / scene.part.utilisation.max()
     peeled(scene, [0.99 * end])
     assert scene.part.damage().max() == 0.0
     peeled(scene, [1.02 * end])
@@ -124,8 +122,6 @@ def test_a_growing_crack_takes_its_toughness(propagated):
     _, _, at, work, stored, dissipated, _ = propagated.T
     a, b = np.searchsorted(at, [FREE + 4.0, FREE + 11.0])
     area = WIDTH * (at[b] - at[a])
-    print("PEEL G", (dissipated[b] - dissipated[a]) / area / LAW.toughness - 1,
-          ((work - stored)[b] - (work - stored)[a]) / area / LAW.toughness - 1, at[a], at[b])
     assert area > 6.0
     for spent in (dissipated, work - stored):
         assert (spent[b] - spent[a]) / area == pytest.approx(LAW.toughness, rel=0.02)
@@ -136,7 +132,6 @@ def test_pull_and_opening_of_a_growing_crack_are_those_of_fracture_mechanics(pro
     grown = (at > FREE + 3.0) & (at < FREE + 12.0)
     assert grown.sum() > 10
     arm = np.sqrt(2.0 * YOUNG * INERTIA * WIDTH * LAW.toughness) / pull[grown]
-    print("PEEL LEFM", np.abs(opening(pull[grown], arm) / end[grown] - 1).max())
     np.testing.assert_allclose(opening(pull[grown], arm), end[grown], rtol=0.02)
 
 
@@ -144,12 +139,10 @@ def test_pull_times_slope_at_the_end_is_the_toughness_of_a_growing_crack(propaga
     # The J integral around a beam on any foundation.
     _, pull, at, *_, slope = propagated.T
     grown = (at > FREE + 3.0) & (at < FREE + 12.0)
-    print("PEEL J", np.abs(pull * slope / LAW.toughness - 1)[grown].max())
     np.testing.assert_allclose(pull[grown] * slope[grown], WIDTH * LAW.toughness, rtol=0.02)
 
 
 def test_work_of_peeling_is_stored_or_dissipated_all_along(propagated):
     _, _, _, work, stored, dissipated, _ = propagated.T
-    print("PEEL work", np.abs(work / (stored + dissipated) - 1).max())
     assert dissipated[-1] > 0.2 * work[-1]
     np.testing.assert_allclose(stored + dissipated, work, rtol=0.005)

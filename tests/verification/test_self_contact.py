@@ -57,8 +57,6 @@ def test_without_contact_the_jaws_pass_through_each_other():
 
 
 def test_with_contact_the_jaws_stop_each_other(closed):
-    print("JAWS", closed.part.penetration() / WALL, closed.part.total_force(),
-          closed.reaction("grip", 1))
     assert 0.0 < closed.part.penetration() < 0.01 * WALL
     assert smallest_gap(closed) == pytest.approx(-closed.part.penetration(), abs=1e-9)
 
@@ -77,7 +75,6 @@ def test_contact_forces_and_their_moments_are_in_balance(closed):
     f = forces[dofs].reshape(-1, 3)
     x = space.tabulate_dof_coordinates() + body.displacement().x.array.reshape(-1, 3)
     size, arm = np.abs(f).sum(), LENGTH
-    print("BALANCE", f.sum(axis=0) / size, np.cross(x, f).sum(axis=0) / size / arm, size)
     assert size > 0.01
     np.testing.assert_allclose(f.sum(axis=0), 0.0, atol=1e-13 * size)
     np.testing.assert_allclose(np.cross(x, f).sum(axis=0), 0.0, atol=1e-12 * size * arm)
@@ -115,7 +112,6 @@ def test_contact_residual_is_the_energys_derivative_and_tangent_the_residuals():
         system.residual(x + h * d, moved)
         energy_errors.append(abs(system.energies()[0] - start - h * residual.dot(d)))
         residual_errors.append((moved - residual - tangent * h).norm())
-    print("TAYLOR", orders(energy_errors), orders(residual_errors))
     assert orders(energy_errors) == pytest.approx(2.0, abs=0.1)
     assert orders(residual_errors) == pytest.approx(2.0, abs=0.1)
 
