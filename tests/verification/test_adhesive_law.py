@@ -94,7 +94,7 @@ def test_fully_debonded_glue_has_dissipated_its_toughness_and_lets_go():
     assert abs(rows[-1, 1]) < 1e-10 * AREA * LAW.strength
 
 
-def test_work_tends_to_what_is_stored_and_dissipated_with_the_square_of_the_steps():
+def test_work_of_debonding_is_stored_or_dissipated_the_better_the_smaller_the_steps():
     # Steps that end at the strength: the law has a kink there.
     errors = []
     for n in (5, 10):
@@ -104,7 +104,7 @@ def test_work_tends_to_what_is_stored_and_dissipated_with_the_square_of_the_step
                                np.linspace(kink, 1.02 * LAST, n + 1)[1:]])
         rows = pulled(scene, tops)
         errors.append(np.abs(rows[:, 3]).max() / rows[-1, 4])
-    assert errors[1] < 5e-3
+    assert errors[1] < 0.5 * errors[0] < 2.5e-3
 
 
 @pytest.mark.parametrize("by, kappa", [(0.5, 1.0), (2.0, 1.0), (2.0, 3.0), (3.5, 3.0)])
