@@ -25,11 +25,9 @@ from petsc4py import PETSc
 
 # Hyperelastic kernels are long; optimising them halves assembly. -Ofast would defeat NaN checks.
 _JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"], "cffi_libraries": ["m"]}
-_FORM_KEYWORDS = (
-    {"jit_options": _JIT_OPTIONS}
-    if "jit_options" in fem.form.__code__.co_varnames
-    else {"jit_params": _JIT_OPTIONS}
-)
+# Points' kernels are one long list of sums that compilers take many minutes to optimise, in vain.
+_JIT_OPTIONS_OF_POINTS = _JIT_OPTIONS | {"cffi_extra_compile_args": ["-O0"]}
+_JIT_KEYWORD = "jit_options" if "jit_options" in fem.form.__code__.co_varnames else "jit_params"
 _HAS_BASIX_UFL = hasattr(fem, "functionspace")
 if _HAS_BASIX_UFL:
     import basix.ufl
@@ -186,10 +184,13 @@ def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
 
 
 def form(expression: Any) -> Any:
-    """Compile a UFL form with optimised kernels."""
+    """Compile a UFL form with optimised kernels; those of sums over points as they are."""
     comm = expression.ufl_domains()[0].ufl_cargo().comm
+    of_points = all(integral.metadata().get("quadrature_degree") == 0
+                    for integral in expression.integrals())
+    options = _JIT_OPTIONS_OF_POINTS if of_points else _JIT_OPTIONS
     with _compiling(comm):
-        return fem.form(expression, **_FORM_KEYWORDS)
+        return fem.form(expression, **{_JIT_KEYWORD: options})
 
 
 @contextmanager

@@ -42,6 +42,9 @@ SMALLEST_PART = 1.0 / 16.0
 CLOSE = 1e-4
 """Differences of a gap (mm) that are none."""
 
+ALIKE = 0.5
+"""Part of a penetration by which two facets may differ on it: at their edge both are right."""
+
 
 @dataclass(frozen=True)
 class Opposed:
@@ -138,7 +141,7 @@ class Contact:
         """
         def missed(found: np.ndarray, gap: np.ndarray, held: np.ndarray) -> np.ndarray:
             inside = gap < 0.0
-            return inside & (found != self._facet) & ~np.isclose(held, gap, rtol=0.0, atol=CLOSE)
+            return inside & (found != self._facet) & ~np.isclose(held, gap, rtol=ALIKE, atol=CLOSE)
 
         return self._take(system, missed)
 
@@ -187,6 +190,12 @@ class Contact:
     def total_force(self) -> float:
         """Return the sum of the contact forces' magnitudes in N. Collective."""
         return compat.assemble_scalar(self._comm, compat.form(self._force))
+
+    def measures(self) -> dict[str, float]:
+        """Return what is measured of the present state. Collective."""
+        gap = self.smallest_gap()
+        return {"gap_mm": gap, "touching": float(gap < 0.0), "contact_force_N": self.total_force(),
+                "penetration_mm": self.penetration()}
 
     def _are_apart(self, side: Opposed) -> np.ndarray:
         """Return which nodes are not joined to the surface."""

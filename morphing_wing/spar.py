@@ -12,6 +12,7 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from .angles import deflection_line, rotation_about_x
+from .chamber_contact import in_chambers
 from .chambers import Chambers
 from .elastomer import Elastomer
 from .elements import element as element_named
@@ -57,6 +58,9 @@ class Spar(Scene):
         Replace those of the fidelity.
     options_prefix
         Prefix of this scene's PETSc options.
+    contact
+        Whether the ceiling and the floor of a chamber press against each other, as they may under
+        suction. Without, nothing is told of it.
 
     Examples
     --------
@@ -77,6 +81,7 @@ class Spar(Scene):
         meshing: SparMeshing | None = None,
         element: str | None = None,
         options_prefix: str = "spar_",
+        contact: bool = False,
     ) -> None:
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         super().__init__(fidelity, comm)
@@ -90,7 +95,8 @@ class Spar(Scene):
             clamped=("root",),
             symmetry={"symmetry": 0} if half else None,
         )
-        self.system = EquilibriumSystem(self.comm, [self.body.block])
+        self.contact = in_chambers(self.body) if contact else None
+        self.system = EquilibriumSystem(self.comm, [part.block for part in self._parts()])
         self._options_prefix = options_prefix
 
     def inflate(
@@ -143,30 +149,38 @@ class Spar(Scene):
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
-        return [self.body.iterate] if self.body.iterate else []
+        return [part.iterate for part in self._parts() if part.iterate is not None]
 
     def _newton(self) -> Newton:
         return Newton(
             self.system,
             self._options_prefix,
             expected_negative=self.body.n_pressures(),
+            max_iterations=25 if self.contact is None else 60,
             before_tangent=self.before_tangent,
+            admissible=self.admissible if self.contact is not None else None,
         )
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
         self._chambers = Chambers(self.body, in_use)
         self.loads = self._chambers.pressures
-        return [self.body.energy, *self._chambers.potentials], [self.body.tangent_correction]
+        energies = [part.energy for part in self._parts()] + self._chambers.potentials
+        return energies, [part.tangent_correction for part in self._parts()]
 
     def _stored(self) -> list[Any]:
-        return [self.body.energy]
+        return [part.energy for part in self._parts()]
+
+    def _parts(self) -> list[Any]:
+        """Return what stores energy, in the order of the blocks."""
+        return [self.body] if self.contact is None else [self.body, self.contact]
 
     def _conjugates(self) -> dict[str, float]:
         return self._chambers.volumes()
 
     def _measures(self) -> dict[str, float]:
         tip = self.body.mean_displacement("tip")
-        return {
+        found = {
             "span_angle_deg": rotation_about_x(self.body.mean_normal("tip")),
             "span_line_deg": deflection_line(tip, np.array([0.0, 0.0, self.geometry.length])),
         }
+        return found if self.contact is None else found | self.contact.measures()

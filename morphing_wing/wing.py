@@ -375,13 +375,11 @@ class Wing(Scene):
         if self.glue is not None:
             found |= self.glue.measures()
         if self.pocket is not None:
-            found["gap_mm"] = self.pocket.smallest_gap()
-            touching = float(found["gap_mm"] < 0.0)
             if self.contact is None:
-                found["contact"] = touching
+                gap = self.pocket.smallest_gap()
+                found |= {"gap_mm": gap, "contact": float(gap < 0.0)}
             else:
-                found |= {"touching": touching, "contact_force_N": self.contact.total_force(),
-                          "penetration_mm": self.contact.penetration()}
+                found |= self.contact.measures()
         return found
 
     def _trailing_edge(self) -> tuple[float, float]:

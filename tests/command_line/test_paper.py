@@ -35,8 +35,9 @@ def asked(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     found = SimpleNamespace(calls=[], cables_converge=True, maps=[])
 
-    def figure7(fidelities, pressures, tensions, skins, directions, comm, begin, done):
+    def figure7(fidelities, pressures, tensions, skins, directions, comm, begin, done, contact):
         found.calls.append((fidelities, list(pressures), list(tensions), skins, directions))
+        found.contact = contact
         study = Figure7(comm)
         for panel, loads in (("pressure", pressures), ("cables", tensions)):
             ok = panel == "pressure" or found.cables_converge
@@ -46,7 +47,7 @@ def asked(monkeypatch, tmp_path):
             done(study, curve, path(panel, [], ok))
         return study
 
-    def reach(pressures, tensions, fidelity, geometry, begin):
+    def reach(pressures, tensions, fidelity, geometry, begin, contact):
         found.maps.append((len(pressures), len(tensions), geometry.skin_thickness))
         return map_module.Reach(path("pressure", pressures, True))
 
@@ -60,6 +61,7 @@ def test_by_default_draft_eight_points_with_skin_and_without_downwards(asked, tm
     assert main(["paper", "fig7"]) == 0
     ((fidelities, pressures, tensions, skins, directions),) = asked.calls
     assert (fidelities, skins, directions) == (("draft",), (True, False), ("down",))
+    assert asked.contact is True
     assert pressures[::8] == pytest.approx([0.0, 0.04]) and len(pressures) == 9
     assert tensions[::8] == pytest.approx([0.0, 0.5]) and len(tensions) == 9
     folder = tmp_path / "output" / "fig7"
