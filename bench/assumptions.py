@@ -59,8 +59,11 @@ OTHERS = {
 }
 CASES = {name: (changes, {}) for name, changes in GEOMETRY.items()} | {
     name: ({}, options) for name, options in OTHERS.items()}
+MEASURED = {"span_angle_deg": "phi_1", "chord_angle_deg": "phi_2",
+            "trailing_edge_deg": "in space", "rib_2_rotation_deg": "middle rib"}
 HEADINGS = {"phi_1": "{:.2f}", "phi_1 change, %": "{:+.1f}", "phi_2": "{:.2f}",
-            "middle rib": "{:.2f}", "of no skin, %": "{:.0f}", "seconds": "{:.0f}"}
+            "in space": "{:.2f}", "middle rib": "{:.2f}", "of no skin, %": "{:.0f}",
+            "seconds": "{:.0f}"}
 
 
 def main():
@@ -85,11 +88,10 @@ def measured(changes, options, arguments):
     geometry = WingGeometry.prototype(n_cells=arguments.cells, **changes)
     for loads, names in (({"upper": [0.5 * PRESSURE, PRESSURE]}, ["span_angle_deg"]),
                          ({"cable": [0.1 * TENSION, 0.5 * TENSION, TENSION]},
-                          ["chord_angle_deg", "rib_2_rotation_deg"])):
+                          ["chord_angle_deg", "trailing_edge_deg", "rib_2_rotation_deg"])):
         path = Wing(geometry, fidelity=arguments.fidelity, **options).actuate(**loads)
-        for heading, name in zip(["phi_1"] if len(names) == 1 else ["phi_2", "middle rib"], names,
-                                 strict=True):
-            found[heading] = path[-1].measures.get(name) if path.converged else None
+        for name in names:
+            found[MEASURED[name]] = path[-1].measures.get(name) if path.converged else None
     return found | {"seconds": time.perf_counter() - clock}
 
 

@@ -2,9 +2,10 @@
 
 The prototype of the paper's Section 5.1, with skin, with skin but without contact forces, without
 skin, and its spar alone, under pressure in the upper chambers (0 to 40 kPa, 8 points), cables (0 to
-0.5 N a rib, 8 points) and both together (to 25 kPa and 0.2 N, 4 points). Each case runs in processes of its own, one a rank; memory is the
-sum of their peaks. Seconds leave out the compilation of the forms, which a small wing sees to. On
-two cores a case at draft takes seconds to minutes, at standard up to 25 minutes:
+0.5 N a rib, 8 points) and both together (to 25 kPa and 0.2 N, 4 points). Each case runs in
+processes of its own, one a rank; memory is the sum of their peaks. Seconds leave out the
+compilation of the forms, which a small wing sees to. On two cores a case at draft takes seconds to
+minutes, at standard up to 25 minutes:
 
     python bench/wing.py --fidelity draft --out wing.csv
     python bench/wing.py --scene "no skin" --load cables --fidelity standard --ranks 2

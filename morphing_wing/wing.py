@@ -12,7 +12,6 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from . import compat
-from .angles import deflection_line, rotation_about_x, rotation_about_z
 from .blocks import Block
 from .chambers import ROWS, Chambers
 from .drawing import Cut, Drawing, bar_radii, default_drawing
@@ -21,7 +20,7 @@ from .elements import element as element_named
 from .errors import is_count, is_number, require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
-from .frame import BeamFrame, turned_x
+from .frame import BeamFrame
 from .geometry.frame import join
 from .geometry.wing import WingGeometry
 from .geometry.wing_mesh import WingMeshing, wing_mesh
@@ -38,6 +37,7 @@ from .system import EquilibriumSystem
 from .tension import check_tension
 from .trim import Trim, trim
 from .weight import Weight
+from .wing_angles import wing_angles
 
 
 @dataclass(frozen=True)
@@ -355,46 +355,12 @@ class Wing(Scene):
     # -- what is measured ---------------------------------------------------------------------
 
     def _measures(self) -> dict[str, float]:
-        span = np.array([0.0, 0.0, self.geometry.span])
-        found = {
-            "span_angle_deg": rotation_about_x(self.body.mean_normal("tip")),
-            "span_line_deg": deflection_line(self.body.mean_displacement("tip"), span),
-        }
-        spar = rotation_about_z(self.body.mean_normal("rear_wall"))
-        ribs = self._rib_measures() if self.ribs is not None else {}
-        if self.has_skin:
-            edge, line = self._trailing_edge()
-        elif ribs:
-            edge, line = (np.mean([ribs[name] for name in ribs if kind in name])
-                          for kind in ("rotation", "line"))
-        if self.has_skin or ribs:
-            found["chord_angle_deg"] = float(edge - spar)
-            found["chord_line_deg"] = float(line - spar)
-            found["spar_twist_deg"] = spar
-        found |= ribs
+        found = wing_angles(self.geometry, self.body, self.ribs)
         if self.glue is not None:
             found |= self.glue.measures()
-        if self.pocket is not None:
-            if self.contact is None:
-                gap = self.pocket.smallest_gap()
-                found |= {"gap_mm": gap, "contact": float(gap < 0.0)}
-            else:
-                found |= self.contact.measures()
-        return found
-
-    def _trailing_edge(self) -> tuple[float, float]:
-        """Return the rotation of the skin's trailing edge and of the line to it from the spar."""
-        rear, edge = (self.body.mean_displacement(f) for f in ("rear_wall", "trailing_edge"))
-        chord = np.array([self.geometry.chord - self.geometry.spar_end, 0.0, 0.0])
-        normal = self.body.mean_normal("trailing_edge")
-        return rotation_about_z(normal), rotation_about_z(chord + edge - rear)
-
-    def _rib_measures(self) -> dict[str, float]:
-        """Return of each rib its tail's rotation and the rotation of the line from root to tail."""
-        found = {}
-        length = np.array([self.geometry.rib.length, 0.0, 0.0])
-        for i in range(len(self.geometry.rib_positions)):
-            root, tail = (self.ribs.end_values(kind, i) for kind in ("root", "tail"))
-            found[f"rib_{i + 1}_rotation_deg"] = rotation_about_z(turned_x(tail[3:]))
-            found[f"rib_{i + 1}_line_deg"] = rotation_about_z(length + tail[:3] - root[:3])
+        if self.contact is not None:
+            found |= self.contact.measures()
+        elif self.pocket is not None:
+            gap = self.pocket.smallest_gap()
+            found |= {"gap_mm": gap, "contact": float(gap < 0.0)}
         return found
