@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
+from morphing_wing.materials import Adhesive
 from morphing_wing.rib import Rib
 from morphing_wing.spar import Spar
 from morphing_wing.summary import summary
@@ -99,3 +100,16 @@ def test_gap_in_the_wing_is_the_same():
     for state, reference in zip(together, alone, strict=True):
         assert state.measures["gap_mm"] == pytest.approx(
             reference.measures["gap_mm"], rel=RELATIVE)
+
+
+def test_a_wing_in_contact_whose_glue_gives_way_is_the_same():
+    geometry = replace(GEOMETRY, n_cells=4, skin_thickness=0.3, rib_positions=(0.75,))
+
+    def run(comm):
+        glue = Adhesive(stiffness=50.0, strength=1.0, toughness=0.5)
+        path = small_wing(comm, geometry=geometry, adhesive=glue).actuate(cable=[0.15, 0.25])
+        last = path[-1].measures
+        assert last["touching"] == 1.0 and last["glue_damage"] > 0.0
+        return path
+
+    compare(run, size=1e-8)
