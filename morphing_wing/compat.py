@@ -57,15 +57,16 @@ def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray
         cells, points = cells[:0], points[:0]
     cells = np.ascontiguousarray(cells, dtype=np.int64)
     points = np.ascontiguousarray(points, dtype=np.float64)
-    if _HAS_BASIX_UFL:
-        element = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
-        arguments = (element, points) if _cells_then_element() else (points, element)
-        return dolfinx.mesh.create_mesh(comm, cells, *arguments)
-    # FFCx gives coordinate elements without a variant one in place, at the first compilation;
-    # arguments made before and after that would then count as different.
-    shape = ufl.Cell(cell, geometric_dimension=3)
-    domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, 1, variant="equispaced"))
-    return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
+    with _compiling(comm):
+        if _HAS_BASIX_UFL:
+            element = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
+            arguments = (element, points) if _cells_then_element() else (points, element)
+            return dolfinx.mesh.create_mesh(comm, cells, *arguments)
+        # FFCx gives coordinate elements without a variant one in place, at the first compilation;
+        # arguments made before and after that would then count as different.
+        shape = ufl.Cell(cell, geometric_dimension=3)
+        domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, 1, variant="equispaced"))
+        return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
 
 
 def _cells_then_element() -> bool:
@@ -106,9 +107,10 @@ def cell_facets(mesh: Any) -> np.ndarray:
 
 def vector_space(mesh: Any, degree: int, size: int = 3) -> Any:
     """Return continuous Lagrange vectors (Q or P by the cell) with ``size`` components."""
-    if _HAS_BASIX_UFL:
-        return fem.functionspace(mesh, ("Lagrange", degree, (size,)))
-    return fem.VectorFunctionSpace(mesh, ("Lagrange", degree), dim=size)
+    with _compiling(mesh.comm):
+        if _HAS_BASIX_UFL:
+            return fem.functionspace(mesh, ("Lagrange", degree, (size,)))
+        return fem.VectorFunctionSpace(mesh, ("Lagrange", degree), dim=size)
 
 
 def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> Any:
@@ -153,11 +155,12 @@ def displacement_modes_space(mesh: Any, degree: int, n_modes: int) -> Any:
 
 
 def _with_displacement(mesh: Any, degree: int, other: Any) -> Any:
-    if _HAS_BASIX_UFL:
-        u = basix.ufl.element("Lagrange", mesh.basix_cell(), degree, shape=(3,))
-        return fem.functionspace(mesh, basix.ufl.mixed_element([u, other]))
-    u = ufl.VectorElement("Lagrange", mesh.ufl_cell(), degree)
-    return fem.FunctionSpace(mesh, ufl.MixedElement([u, other]))
+    with _compiling(mesh.comm):
+        if _HAS_BASIX_UFL:
+            u = basix.ufl.element("Lagrange", mesh.basix_cell(), degree, shape=(3,))
+            return fem.functionspace(mesh, basix.ufl.mixed_element([u, other]))
+        u = ufl.VectorElement("Lagrange", mesh.ufl_cell(), degree)
+        return fem.FunctionSpace(mesh, ufl.MixedElement([u, other]))
 
 
 def _pressure_options(pressure: tuple[str, int]) -> dict[str, Any]:
@@ -175,7 +178,7 @@ def interpolation_points(space: Any) -> np.ndarray:
 def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
     """Return the function of a space with an expression's values at its points in each cell."""
     function = fem.Function(space)
-    with _quiet_compiler():
+    with _compiling(space.mesh.comm):
         function.interpolate(fem.Expression(expression, points))
     return function
 
