@@ -31,7 +31,7 @@ COLUMNS = {
     "scene": "{}", "load": "{}", "fidelity": "{}", "dofs": "{:,}", "points": "{}",
     "iterations": "{}", "factorisations": "{}", "seconds": "{:.0f}", "peak_MB": "{:.0f}",
     "span_angle_deg": "{:.2f}", "chord_angle_deg": "{:.2f}", "rib_2_rotation_deg": "{:.2f}",
-    "contact_from": "{}", "penetration_mm": "{:.4f}",
+    "touching_from": "{}", "penetration_mm": "{:.4f}",
 }
 
 
@@ -104,7 +104,7 @@ def measured(scene, load, fidelity, n_cells):
         "iterations": sum(state.newton_iterations for state in path),
         "factorisations": wing.newton.factor.factorisations, "seconds": seconds,
         "peak_MB": peak_MB(comm), "reason": path.reason,
-        "contact_from": words(touching[0]) if touching else None,
+        "touching_from": words(touching[0]) if touching else None,
         **(path[-1].measures if len(path) else {}),
     })
 

@@ -15,8 +15,8 @@ from mpi4py import MPI as _MPI  # noqa: E402, F401
 _PLACES = {
     "Spar": "spar", "Rib": "rib", "Wing": "wing", "Path": "path", "State": "path",
     "Trim": "trim", "load_table": "path", "Progress": "progress", "plot_paths": "curves",
-    "Yeoh": "materials", "Elastic": "materials", "DRAGON_SKIN_30": "materials",
-    "RESIN": "materials", "InputError": "errors",
+    "Adhesive": "materials", "Yeoh": "materials", "Elastic": "materials",
+    "DRAGON_SKIN_30": "materials", "RESIN": "materials", "InputError": "errors",
 }  # fmt: skip
 __all__ = list(_PLACES)
 

@@ -100,7 +100,7 @@ class GluedPatches:
             Numbers of translation and rotation of its foot.
         """
         rows = np.concatenate([face_numbers.reshape(len(face_numbers), -1), foot_numbers], axis=1)
-        system.renumber(self.block, self._mesh.as_dofs(rows[self._mine], fill=-1))
+        system.renumber(self.block, self._mesh.as_dofs(rows[self._mine]))
 
     # -- damage -------------------------------------------------------------------------------
 

@@ -140,7 +140,7 @@ class Contact:
         Returns whether the system's matrix is a new one. Collective.
         """
         def missed(found: np.ndarray, gap: np.ndarray, held: np.ndarray) -> np.ndarray:
-            inside = gap < 0.0
+            inside = (gap < 0.0) | (held < 0.0)
             return inside & (found != self._facet) & ~np.isclose(held, gap, rtol=ALIKE, atol=CLOSE)
 
         return self._take(system, missed)
@@ -231,7 +231,7 @@ class Contact:
             start += len(rows)
         rows = np.concatenate(table)[self._mine]
         self._place()
-        system.renumber(self.block, self._points.as_dofs(rows, fill=-1))
+        system.renumber(self.block, self._points.as_dofs(rows))
         self.iterate.accept()
 
     # -- what the energy is given -------------------------------------------------------------

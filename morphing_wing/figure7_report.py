@@ -32,7 +32,7 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
         ["curve", "by the end face", "by the deflection line", "coupling", "resin yields at",
          "skin touches from", "unstable from"],
         [[_name(f), words(f), words(f, "line_"), _coupling(f), _load(f, f["resin_yields_at"]),
-          _load(f, f["touching_from"] or f["contact_from"]), _load(f, f["unstable_from"])]
+          _touching(f), _load(f, f["unstable_from"])]
          for f in facts["curves"]])
     if facts["skin"]:
         yield _table(
@@ -46,6 +46,11 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
             ["curve", "against", "difference", "at"],
             [[_name(f), f["against"], f"{100 * f['largest_difference']:.1f} %",
               _load(f, f["at_load"])] for f in facts["fidelities"]])
+
+
+def _touching(fact: dict[str, Any]) -> str:
+    found = fact["touching_from"]
+    return _load(fact, fact["contact_from"] if found is None else found)
 
 
 def _table(title: str, headings: list[str], rows: list[list[str]]) -> Table:

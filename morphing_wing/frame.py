@@ -108,7 +108,7 @@ class BeamFrame:
         return (6 * nodes[np.argmin(away)] + np.arange(6)).astype(np.int32)
 
     def owned(self, dofs: np.ndarray) -> np.ndarray:
-        """Return the dofs if this rank owns them, else none: the masters of shared unknowns."""
+        """Return the dofs if this rank owns them, else none."""
         n_owned = 6 * self.function.function_space.dofmap.index_map.size_local
         return dofs[dofs < n_owned]
 

@@ -8,9 +8,11 @@ from __future__ import annotations
 import numbers
 from dataclasses import dataclass
 
-from morphing_wing.errors import is_number, require
+from morphing_wing.errors import InputError, is_number, require
 
-__all__ = ["DRAGON_SKIN_30", "FRACTURE_STRETCH", "RESIN", "YIELD_MPA", "Elastic", "Yeoh"]
+__all__ = [
+    "DRAGON_SKIN_30", "FRACTURE_STRETCH", "RESIN", "YIELD_MPA", "Adhesive", "Elastic", "Yeoh",
+]
 
 BULK_PER_SHEAR = 1000.0
 """Default bulk over initial shear modulus: nearly incompressible (Poisson's ratio 0.4995)."""
@@ -149,10 +151,12 @@ class Adhesive:
             value = getattr(self, name)
             if value is not None or name == "stiffness":
                 require(is_number(value) and value > 0, name, value, unit, f"greater than 0 {unit}")
-        both = (self.strength is None) == (self.toughness is None)
-        require(both, "toughness", self.toughness, "N/mm", "given if strength is, and else not")
-        alone = self.shear_strength is not None and self.strength is None
-        require(not alone, "shear_strength", self.shear_strength, "MPa", "given with strength only")
+        if self.strength is None:
+            for name in ("toughness", "shear_strength"):
+                if getattr(self, name) is not None:
+                    raise InputError(f"{name}: is given without strength, must stand with it")
+        elif self.toughness is None:
+            raise InputError("toughness: is missing, must be given with strength")
         if self.fails:
             require(self.last > 1.0, "toughness", self.toughness, "N/mm",
                     f"more than {self.onset:.4g} N/mm, what is stored when the strength is reached")

@@ -170,8 +170,8 @@ class Newton:
     def linearise(self) -> InertiaCholesky:
         """Return the factor of the tangent at the functions' values, a converged state. Collective.
 
-        It is the exact derivative of the residual: without mass, and of the state itself, where the
-        last factor of `solve` is that of the iterate before.
+        Without mass, and of the state itself, where the last factor of `solve` is that of the
+        iterate before: the derivative of the residual, but for the motion of contact places.
         """
         self._assemble(0)
         self.factor.inspect(self.system.matrix)

@@ -57,10 +57,10 @@ class PointMesh:
         return self.function.x.array.reshape(-1, self.function.function_space.dofmap.index_map_bs)[
             self._cells]
 
-    def as_dofs(self, rows: np.ndarray, fill: float = 0) -> np.ndarray:
-        """Return rows (n_mine, size) in the order of the function's dofs."""
+    def as_dofs(self, rows: np.ndarray) -> np.ndarray:
+        """Return numbers (n_mine, size) in the order of the function's dofs."""
         size = self.function.function_space.dofmap.index_map_bs
-        table = np.full((len(self.function.x.array) // size, size), fill, dtype=rows.dtype)
+        table = np.full((len(self.function.x.array) // size, size), -1, dtype=rows.dtype)
         table[self._cells] = rows
         return table.ravel()
 

@@ -165,6 +165,9 @@ class Scene(ABC):
         """Set the rank-local values of all functions."""
         for block, array in zip(self.system.blocks, values, strict=True):
             block.function.x.array[:] = array
+        self.system.share()
+        if self.contact is not None:
+            self.contact.iterate.accept()
 
     def accept(self) -> None:
         """Take the present state as converged."""

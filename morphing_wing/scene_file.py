@@ -167,6 +167,8 @@ def materials_of(keys: Any, geometry: Any) -> dict[str, Any]:
     if keys.scene == "wing":
         materials["contact"] = keys.contact
         if keys.adhesive is not None:
+            if geometry.rib is None:
+                raise InputError('adhesive: must be left out where rib is "none"')
             given = {"stiffness": geometry.glue_stiffness} | keys.adhesive.given()
             with located("adhesive", type(keys.adhesive)):
                 materials["adhesive"] = Adhesive(**given)

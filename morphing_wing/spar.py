@@ -144,6 +144,7 @@ class Spar(Scene):
             "material": asdict(self.material),
             "element": self.body.element.name,
             "half_model": self.multiplicity == 2,
+            "contact": self.contact is not None,
         }
 
     # -- what the scene is made of ------------------------------------------------------------
@@ -183,4 +184,7 @@ class Spar(Scene):
             "span_angle_deg": rotation_about_x(self.body.mean_normal("tip")),
             "span_line_deg": deflection_line(tip, np.array([0.0, 0.0, self.geometry.length])),
         }
-        return found if self.contact is None else found | self.contact.measures()
+        if self.contact is not None:
+            found |= self.contact.measures()
+            found["contact_force_N"] *= self.multiplicity
+        return found

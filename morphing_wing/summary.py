@@ -27,7 +27,8 @@ def summary(path: Path) -> dict[str, Any]:
     ``newton_iterations`` and ``energy_Nmm`` are always there, with one entry a step: 0.0 where the
     scene has no such load, None where it has no such angle. The other columns of the table stand
     beside them. ``contact_from`` is the index of the first step whose skin passes through itself or
-    a rib, None if there is none.
+    a rib for want of contact forces, ``touching_from`` of the first step in which something presses
+    on something; None if there is none.
     """
     table = path.table().drop(columns=["step_seconds"], errors="ignore")
     steps = len(path)
@@ -35,6 +36,7 @@ def summary(path: Path) -> dict[str, Any]:
     arrays |= {angle: [None] * steps for angle in ANGLES}
     arrays |= {"newton_iterations": [], "energy_Nmm": []}
     arrays |= {name: [plain(value) for value in table[name]] for name in table}
+    touching = [i for i, state in enumerate(path) if state.measures.get("touching")]
     in_contact = [i for i, state in enumerate(path) if state.contact]
     return {
         "scene": path.scene.name,
@@ -45,6 +47,7 @@ def summary(path: Path) -> dict[str, Any]:
         "reason": path.reason,
         "steps": steps,
         "contact_from": in_contact[0] if in_contact else None,
+        "touching_from": touching[0] if touching else None,
         **arrays,
         "parameters": plain(path.scene.description()),
         "versions": versions(),

@@ -164,8 +164,9 @@ class Wing(Scene):
         Path
             All converged steps. A skin with prestretch is built in first, in steps that are not
             among them unless they fail; what that stores is in the energy, not in the external
-            work. ``contact`` in its table is true from where the skin passes
-            through itself or a rib: contact forces are not modelled.
+            work. ``touching``, ``gap_mm``, ``contact_force_N`` and ``penetration_mm`` in the table
+            tell of contact; with ``contact=False``, ``contact`` is true from where the skin passes
+            through itself or a rib.
 
         Raises
         ------
@@ -236,8 +237,9 @@ class Wing(Scene):
                 "greater than 0 deg")
         require(is_count(max_iterations), "max_iterations", max_iterations, "",
                 "a whole number of at least 1")
-        return trim(self, steerings, self._load, tolerance, max_iterations, on_step, on_cut,
-                    restart, resume)
+        built = {} if self.body.prestretch is None else {"prestretch_part": 1.0}
+        return trim(self, steerings, self._load | built, tolerance, max_iterations, on_step,
+                    on_cut, restart, resume)
 
     # -- for the pictures ---------------------------------------------------------------------
 
