@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from morphing_wing.cli import built_in_scenes
+from morphing_wing.errors import InputError
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.geometry.wing import WingGeometry
-from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
+from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from morphing_wing.scene_file import FIDELITIES, parse_scene
 from morphing_wing.scene_keys import ElastomerKeys, ResinKeys, RibKeys, SparKeys, WingKeys
 
@@ -149,8 +150,10 @@ def test_built_in_scene_is_read_and_describes_itself_in_its_first_line(name):
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_values_in_a_built_in_scenes_comments_are_the_defaults(name):
     """A reader who uncomments a line must not change the scene by that."""
+    # The adhesive's table is an example: by default there is none.
+    text = re.sub(r"(?ms)^# \[adhesive\].*?\n\n", "", BUILT_IN[name])
     text = re.sub(r'(?m)^# (?=\w+ = (?!"none"))(?!guide|torque|lower|upper|cable|gravity =)', "",
-                  BUILT_IN[name])
+                  text)
     text = re.sub(r"(?m)^# (?=\[)", "", text)
     assert text.count("#") < BUILT_IN[name].count("#") - 5
     plain, spelled = scene(BUILT_IN[name]), scene(text)
@@ -165,3 +168,33 @@ def test_values_in_a_built_in_scenes_comments_are_the_defaults(name):
             assert given == pytest.approx(expected, abs=1e-4)
         else:
             assert given == expected, field.name
+
+
+GLUED = '''scene = "wing"
+[geometry]
+preset = "prototype"
+{}
+[adhesive]
+{}
+[loads]
+upper = "1 kPa"
+'''
+
+
+def test_an_adhesive_takes_its_stiffness_from_the_geometry_unless_given():
+    law = 'strength = "1 MPa"\ntoughness = "500 J/m^2"'
+    read = scene(GLUED.format('glue_stiffness = "20 N/mm^3"', law))
+    assert read.materials["adhesive"] == Adhesive(20.0, 1.0, 0.5)
+    assert read.materials["contact"] is True
+
+
+@pytest.mark.parametrize("geometry, law, said", [
+    ("", 'strength = "1 MPa"', "adhesive.toughness: is missing, must be given with strength"),
+    ("", 'toughness = "1 N/mm"', "adhesive.toughness: is given without strength"),
+    ("", 'strength = "1 MPa"\ntoughness = "1 J/m^2"', "more than 0.01 N/mm"),
+    ('rib = "none"', 'strength = "1 MPa"\ntoughness = "1 N/mm"', "must be left out where rib"),
+    ("", 'strength = "1 N"', "adhesive.strength"),
+])
+def test_glue_that_cannot_be_is_refused(geometry, law, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        scene(GLUED.format(geometry, law))
