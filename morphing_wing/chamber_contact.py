@@ -12,6 +12,9 @@ from .surface import Surface
 STIFFNESS = 20.0
 """Contact pressure per penetration, N/mm^3."""
 
+SOFT = 0.005
+"""Penetration in mm over which contact begins softly."""
+
 _CEILING, _FLOOR = 1, 4
 """Which facets of a cell look down and up: y- and y+."""
 
@@ -25,4 +28,4 @@ def in_chambers(body: Elastomer) -> Contact:
                           for facet in (_CEILING, _FLOOR))
         radius = np.zeros(len(ceiling.area))
         sides.append(Opposed(ceiling.nodes, floor, ceiling.area, radius))
-    return Contact(body.comm, sides, STIFFNESS)
+    return Contact(body.comm, sides, STIFFNESS, SOFT)

@@ -80,6 +80,8 @@ class Contact:
         out: there the two are one, or glued.
     stiffness
         Pressure per penetration, N/mm^3.
+    soft
+        Penetration in mm up to which contact is softer, so that Newton's method meets no kink.
 
     Attributes
     ----------
@@ -91,7 +93,9 @@ class Contact:
         Bilinear form that makes the tangent robust, and the iterates that it needs.
     """
 
-    def __init__(self, comm: MPI.Comm, sides: Sequence[Opposed], stiffness: float) -> None:
+    def __init__(
+        self, comm: MPI.Comm, sides: Sequence[Opposed], stiffness: float, soft: float = SOFT
+    ) -> None:
         self._comm, self._sides = comm, list(sides)
         facet_size = self._sides[0].surface.facets.shape[1]
         self._degree = 1 if facet_size == 4 else 2
@@ -113,10 +117,10 @@ class Contact:
             point, place, first, second = _kinematics(q, data, facet_size)
             return contact_gap(point, place, first, second, data[3 * facet_size + 12])
 
-        self.energy = self._points.sum(contact_energy(gap(self.function), weight, SOFT))
+        self.energy = self._points.sum(contact_energy(gap(self.function), weight, soft))
         self.tangent_correction = self._points.sum(contact_correction(
-            gap, weight, SOFT, self.function, self.iterate.last, self.iterate.step))
-        self._force = self._points.sum(contact_force(gap(self.function), weight, SOFT))
+            gap, weight, soft, self.function, self.iterate.last, self.iterate.step))
+        self._force = self._points.sum(contact_force(gap(self.function), weight, soft))
 
     # -- which facet opposes which node -------------------------------------------------------
 

@@ -22,7 +22,7 @@ def wanted(state):
 
 
 def loads(trimmed):
-    return {WORDS[name]: value for name, value in trimmed.loads.items()}
+    return {word: trimmed.loads[name] for name, word in WORDS.items()}
 
 
 @pytest.mark.parametrize("changes, at", [

@@ -111,13 +111,17 @@ class Moved:
         return fem.locate_dofs_topological((part, collapsed), 2, body.face_facets(face))[0]
 
 
+LINEAR = 1e-12
+"""Penetration in mm beyond which the pressure grows with it: the closed forms' law."""
+
+
 def pressing(*pairs, stiffness):
     """Return what makes the contact of nodes of a face with another face, for each pair."""
     def make(body):
         surface = {name: Surface(body, body.grid.facets[name]) for pair in pairs for name in pair}
         return Contact(body.comm, [
             Opposed(surface[a].nodes, surface[b], surface[a].area, np.zeros(len(surface[a].area)))
-            for a, b in pairs], stiffness)
+            for a, b in pairs], stiffness, soft=LINEAR)
 
     return make
 
