@@ -13,9 +13,9 @@ import morphing_wing
 from mpi4py import MPI
 import numpy as np
 from morphing_wing import compat
-mesh = compat.create_mesh(MPI.COMM_SELF, "interval", np.array([[0, 1]]), np.eye(3)[:2])
 import ufl
 print("about to compile", flush=True)
+mesh = compat.create_mesh(MPI.COMM_SELF, "interval", np.array([[0, 1]]), np.eye(3)[:2])
 length = compat.form(compat.scalar_type(3.0) * ufl.dx(domain=mesh))
 print(compat.assemble_scalar(MPI.COMM_SELF, length))
 """
