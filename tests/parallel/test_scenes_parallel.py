@@ -108,6 +108,7 @@ def test_a_wing_in_contact_whose_glue_gives_way_is_the_same():
     def run(comm):
         glue = Adhesive(stiffness=50.0, strength=1.0, toughness=0.5)
         path = small_wing(comm, geometry=geometry, adhesive=glue).actuate(cable=[0.15, 0.25])
+        assert path.converged, path.reason
         last = path[-1].measures
         assert last["touching"] == 1.0 and last["glue_damage"] > 0.0
         return path
