@@ -102,15 +102,26 @@ def test_gap_in_the_wing_is_the_same():
             reference.measures["gap_mm"], rel=RELATIVE)
 
 
-def test_a_wing_in_contact_whose_glue_gives_way_is_the_same():
+def test_a_wing_whose_skin_lies_on_a_rib_is_the_same():
     geometry = replace(GEOMETRY, n_cells=4, skin_thickness=0.3, rib_positions=(0.75,))
 
     def run(comm):
-        glue = Adhesive(stiffness=50.0, strength=1.0, toughness=0.5)
-        path = small_wing(comm, geometry=geometry, adhesive=glue).actuate(cable=[0.15, 0.25])
+        path = small_wing(comm, geometry=geometry).actuate(cable=[0.1, 0.15, 0.3])
         assert path.converged, path.reason
-        last = path[-1].measures
-        assert last["touching"] == 1.0 and last["glue_damage"] > 0.0
+        assert path[-1].measures["touching"] == 1.0
         return path
 
-    compare(run, size=1e-8)
+    compare(run, size=1e-7)
+
+
+def test_a_wing_whose_glue_gives_way_is_the_same():
+    geometry = replace(GEOMETRY, skin_thickness=None)
+
+    def run(comm):
+        glue = Adhesive(stiffness=50.0, strength=1.0, toughness=0.5)
+        path = small_wing(comm, geometry=geometry, adhesive=glue).actuate(cable=[0.02, 0.06, 0.1])
+        assert path.converged, path.reason
+        assert path[-1].measures["glue_damage"] > 0.0
+        return path
+
+    compare(run, size=1e-7)
