@@ -73,10 +73,7 @@ class Frame:
     def half_heights(self) -> np.ndarray:
         """Return half the height in mm of each bar, shape (m,); NaN where a bar only stiffens."""
         half = {Rectangle: lambda s: s.width / 2.0, Circle: lambda s: s.diameter / 2.0}
-        of = [{name: half.get(type(section), lambda s: np.nan)(section)
-               for name, section in sections.items()} for sections in self.sections]
-        pairs = zip(self.ribs, self.kinds, strict=True)
-        return np.array([of[rib][self.names[kind]] for rib, kind in pairs])
+        return self._of_each_bar(lambda s: half.get(type(s), lambda _: np.nan)(s))
 
     def lengths(self) -> np.ndarray:
         """Return the length in mm of each bar, shape (m,)."""

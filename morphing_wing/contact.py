@@ -253,13 +253,12 @@ class Contact:
         radius = [side.radius for side in self._sides]
         self._X, self._Y, self._radius, self._weights = (
             np.concatenate(part)[self._mine] for part in (nodes, facets, radius, weight))
-        self._used = self._facet[self._mine] >= 0
         self._xi = np.zeros((len(self._mine), 2))
         self._refresh()
 
     def _refresh(self) -> None:
         """Move the places to where the distance is stationary at the present unknowns."""
-        used = self._used
+        used = self._weights > 0.0
         points = self._X[used] + self._points.values()[used, :3]
         self._xi[used] = project(self._opposed()[used], points, self._xi[used])
         shapes = shape_functions(self._degree, self._xi)
