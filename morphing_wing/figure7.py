@@ -16,7 +16,7 @@ from .errors import InputError, require
 from .figure7_facts import PANELS
 from .figure7_result import Curve, Figure7
 from .geometry.wing import WingGeometry
-from .limits import Limits
+from .limits import actuated
 from .path import Path
 from .progress import Progress
 from .record import without_fields
@@ -104,15 +104,4 @@ def _run(
 ) -> Path:
     """Return one curve's path."""
     scene = Wing(curve.shape(geometry), fidelity=curve.fidelity, comm=comm, **keywords)
-    progress, limits = begin and begin(curve, scene), Limits(scene)
-
-    def on_step(state: Any) -> None:
-        limits(state)
-        if progress:
-            progress(state)
-
-    path = scene.actuate(**curve.loads(loads), on_step=on_step,
-                         on_cut=progress.cut if progress else None)
-    if progress:
-        progress.end(path.converged, path.reason)
-    return path
+    return actuated(scene, begin and begin(curve, scene), **curve.loads(loads))

@@ -6,10 +6,11 @@ from typing import Any
 
 from .beam_stress import BeamStress
 from .fields import scene_grids
-from .path import State
+from .path import Path, State
+from .progress import Progress
 from .wing import Wing
 
-__all__ = ["Limits"]
+__all__ = ["Limits", "actuated"]
 
 
 class Limits:
@@ -42,3 +43,32 @@ class Limits:
         state.measures["largest_stretch"] = self._wing.comm.bcast(stretch)
         if self._stress is not None:
             state.measures["rib_stress_MPa"] = self._stress.largest()
+
+
+def actuated(
+    wing: Wing, progress: Progress | None, keep_fields: bool = True, **loads: Any
+) -> Path:
+    """Return the path of `Wing.actuate` with its limits measured and its steps told.
+
+    Parameters
+    ----------
+    wing, loads
+        The wing, and what it is actuated by.
+    progress
+        Told of each step, of each one that was cut, and of the end; or None.
+    keep_fields
+        Whether states keep their fields.
+    """
+    limits = Limits(wing)
+
+    def on_step(state: State) -> None:
+        limits(state)
+        if not keep_fields:
+            state.fields = {}
+        if progress:
+            progress(state)
+
+    path = wing.actuate(**loads, on_step=on_step, on_cut=progress.cut if progress else None)
+    if progress:
+        progress.end(path.converged, path.reason)
+    return path

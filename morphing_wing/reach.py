@@ -20,7 +20,7 @@ from mpi4py import MPI
 
 from .errors import require
 from .geometry.wing import WingGeometry
-from .limits import Limits
+from .limits import actuated
 from .path import Path
 from .progress import Progress
 from .reach_picture import draw
@@ -99,19 +99,9 @@ def reach(
         require(rising, name, list(map(float, values)), "", "one or more rising numbers")
     geometry = WingGeometry.prototype() if geometry is None else geometry
     scene = Wing(geometry, fidelity=fidelity, comm=comm, **wing)
-    progress, limits = begin and begin(scene), Limits(scene)
-
-    def on_step(state: Any) -> None:
-        limits(state)
-        state.fields = {}  # a map has many states, and draws none of them
-        if progress:
-            progress(state)
-
     upper, cable = snake(pressures, tensions)
-    path = scene.actuate(upper=upper, cable=cable, on_step=on_step,
-                         on_cut=progress.cut if progress else None)
-    if progress:
-        progress.end(path.converged, path.reason)
+    # A map has many states, and draws none of them.
+    path = actuated(scene, begin and begin(scene), keep_fields=False, upper=upper, cable=cable)
     return Reach(without_fields(path))
 
 
