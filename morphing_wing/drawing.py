@@ -55,7 +55,7 @@ class Drawing:
     cables
         Deformed polylines of the cables, each of shape (n, 3) in mm; needed on rank 0 only.
     colour_by
-        ``"stretch"`` or ``"displacement"``; solids are coloured by it.
+        ``"stretch"``, ``"displacement"`` or ``"mode"``; solids are coloured by it.
     """
 
     eye: tuple[float, float, float] = _EYES["spar"]

@@ -261,23 +261,23 @@ class Elastomer:
         cells = np.unique(cells if chosen is None else cells[chosen])
         return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells))
 
-    def region_mass(self, region: str) -> np.ndarray:
-        """Return the lumped volume in mm^3 of a region on each owned unknown.
+    def lumped_volume(self, *regions: str) -> np.ndarray:
+        """Return the volume in mm^3 of regions (all, if none is named) on each owned unknown.
 
         Zero for unknowns that are no displacements.
         """
         density = fem.Function(compat.discontinuous_space(self.mesh, 0))
-        for cell in self._cells_of(region):
+        for cell in self._cells_of(*(regions or self.grid.regions)):
             density.x.array[density.function_space.dofmap.cell_dofs(cell)] = 1.0
         space = self.function.function_space
         v = ufl.TestFunction(space)
-        mass = fem.Function(space)
+        volume = fem.Function(space)
         compat.assemble_vector(
             compat.form(density * sum(v[i] for i in range(3)) * self.volume_measure()),
-            mass.x.array,
+            volume.x.array,
         )
-        compat.add_ghosts(mass)
-        return mass.x.array[self.block.owned]
+        compat.add_ghosts(volume)
+        return volume.x.array[self.block.owned]
 
     def is_displacement(self) -> np.ndarray:
         """Return which of the block's owned unknowns are displacements, as a mask."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import pathlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
@@ -23,9 +23,10 @@ from morphing_wing.stretch import nodal_stretch
 if TYPE_CHECKING:
     import pyvista
 
+    from morphing_wing.modes import Modes
     from morphing_wing.path import Path, State
 
-__all__ = ["FieldGrid", "save_path", "scene_grids", "shown"]
+__all__ = ["FieldGrid", "mode_grids", "save_modes", "save_path", "scene_grids", "shown"]
 
 
 class FieldGrid:
@@ -160,6 +161,29 @@ def scene_grids(scene: Any, state: State) -> dict[str, pyvista.UnstructuredGrid 
         return {name: kept[name].grid() for name in scene.functions}
 
 
+def mode_grids(modes: Modes, i: int) -> dict[str, pyvista.UnstructuredGrid | None]:
+    """Return the grids of the state of some modes, with mode ``i`` as point array. Collective."""
+    grids, moved = (scene_grids(modes.scene, state) for state in (modes.state, modes.moved(i)))
+    for name, grid in grids.items():
+        if grid is not None:
+            before, after = (g.point_data["displacement"] for g in (grid, moved[name]))
+            grid.point_data["mode"] = after - before
+    return grids
+
+
+def save_modes(modes: Modes, directory: str | os.PathLike) -> pathlib.Path:
+    """Write modes for ParaView: ``modes.pvd``, a time step a mode. Collective; rank 0 writes."""
+    directory, entries = pathlib.Path(directory), []
+    for i, mode in enumerate(modes):
+        figures = modes.state.load | {"frequency_Hz": mode.frequency_Hz}
+        for part, (name, grid) in enumerate(mode_grids(modes, i).items()):
+            file = directory / f"{name}_{i + 1:04d}.vtu"
+            on_root(modes.scene.comm, lambda g=grid, n=figures, f=file: _write_grid(g, n, f))
+            entries.append((i + 1, part, name, file.name))
+    on_root(modes.scene.comm, lambda: _write_series(entries, directory / "modes.pvd"))
+    return directory / "modes.pvd"
+
+
 def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:
     """Write a path's fields for ParaView: ``path.pvd`` and one ``.vtu`` a state and function.
 
@@ -177,9 +201,10 @@ def save_path(path: Path, directory: str | os.PathLike) -> pathlib.Path:
         grids = scene_grids(path.scene, state)
         for part, (name, grid) in enumerate(grids.items()):
             file = directory / f"{name}_{step:04d}.vtu"
-            on_root(path.scene.comm, lambda g=grid, s=state, f=file: _write_grid(g, s, f))
+            figures = state.load | state.measures
+            on_root(path.scene.comm, lambda g=grid, n=figures, f=file: _write_grid(g, n, f))
             entries.append((step, part, name, file.name))
-    on_root(path.scene.comm, lambda: _write_series(entries, directory))
+    on_root(path.scene.comm, lambda: _write_series(entries, directory / "path.pvd"))
     return directory / "path.pvd"
 
 
@@ -202,13 +227,15 @@ def _written_before(
     return entries
 
 
-def _write_grid(grid: pyvista.UnstructuredGrid, state: State, file: pathlib.Path) -> None:
-    for name, value in (state.load | state.measures).items():
+def _write_grid(
+    grid: pyvista.UnstructuredGrid, figures: Mapping[str, float], file: pathlib.Path
+) -> None:
+    for name, value in figures.items():
         grid.field_data[name] = np.array([float(value)])
     write_whole(file, lambda name: grid.save(name, binary=True))
 
 
-def _write_series(entries: list[tuple[int, int, str, str]], directory: pathlib.Path) -> None:
+def _write_series(entries: list[tuple[int, int, str, str]], file: pathlib.Path) -> None:
     lines = [
         f'    <DataSet timestep="{step}" part="{part}" '
         f"name={quoteattr(name)} file={quoteattr(file)}/>"
@@ -218,8 +245,8 @@ def _write_series(entries: list[tuple[int, int, str, str]], directory: pathlib.P
         '<?xml version="1.0"?>',
         '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">',
         "  <Collection>", *lines, "  </Collection>", "</VTKFile>", ""])
-    write_whole(directory / "path.pvd", lambda file: file.write_text(text))
-    written = {file for *_, file in entries}
-    for old in directory.glob("*.vtu"):
+    write_whole(file, lambda name: name.write_text(text))
+    written = {name for *_, name in entries}
+    for old in file.parent.glob("*.vtu"):
         if old.name not in written and re.fullmatch(r".+_\d{4,}\.vtu", old.name):
             old.unlink()

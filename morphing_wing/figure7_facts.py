@@ -31,6 +31,8 @@ class Panel:
         Load's column in the table, and the unit in which it is told.
     angle, line
         Columns of the angle that the load is for: face rotation, and deflection line.
+    space
+        Column of that face's rotation in space, where the angle is told against the spar.
     other
         Column of the angle that it should leave alone.
     limit_deg
@@ -42,6 +44,7 @@ class Panel:
     unit: str
     angle: str
     line: str
+    space: str | None
     other: str
     limit_deg: float
 
@@ -51,10 +54,10 @@ class Panel:
 
 
 PANELS = {
-    "pressure": Panel("pressure_MPa", 1000.0, "kPa", "span_angle_deg", "span_line_deg",
+    "pressure": Panel("pressure_MPa", 1000.0, "kPa", "span_angle_deg", "span_line_deg", None,
                       "chord_angle_deg", 12.0),
     "cables": Panel("cable_N", 1.0, "N", "chord_angle_deg", "chord_line_deg",
-                    "span_angle_deg", 35.0),
+                    "trailing_edge_deg", "span_angle_deg", 35.0),
 }
 
 
@@ -70,7 +73,8 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
     -------
     dict
         ``curves``: of each curve the load at which the paper's angle is reached (``reached_at``
-        by the face's rotation, ``line_reached_at`` by the deflection line, None: not reached),
+        by the face's rotation, ``line_reached_at`` by the deflection line, ``space_reached_at`` by
+        the trailing edge against the horizontal, None: not reached or no such angle),
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
         angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere), and from which
         load on the skin touches something (``touching_from``), or passes through it for want of
@@ -89,8 +93,14 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
 
 
 def words(fact: dict[str, Any], by: str = "") -> str:
-    """Return in words where a curve's limit is reached; ``by="line_"``: by its deflection line."""
+    """Return in words where a curve's limit is reached.
+
+    ``by`` is "" for the face's rotation, "line_" for the deflection line, "space_" for the face
+    against the horizontal.
+    """
     panel = PANELS[fact["panel"]]
+    if by == "space_" and panel.space is None:
+        return "-"
     at = fact[f"{by}reached_at"]
     if at is not None:
         return f"{fact['limit_deg']:g} deg at {panel.words(at)}"
@@ -135,14 +145,17 @@ def _named(key: tuple) -> dict[str, Any]:
 
 def _curve(panel: Panel, rows: pd.DataFrame) -> dict[str, Any]:
     load = rows["load"].to_numpy(float)
-    angle, line, other = (_column(rows, name) for name in (panel.angle, panel.line, panel.other))
+    angle, line, space, other = (
+        _column(rows, name) for name in (panel.angle, panel.line, panel.space, panel.other))
     return {
         "limit_deg": panel.limit_deg,
         "reached_at": reached_at(load, angle, panel.limit_deg),
         "line_reached_at": reached_at(load, line, panel.limit_deg),
+        "space_reached_at": reached_at(load, space, panel.limit_deg),
         "last_load": float(load[-1]),
         "last_angle_deg": float(angle[-1]),
         "last_line_deg": _number(line[-1]),
+        "last_space_deg": _number(space[-1]),
         "coupling_deg": _number(other[-1]),
         "coupling": coupling(angle[-1], other[-1]),
         "resin_yields_at": reached_at(load, _column(rows, "rib_stress_MPa"), YIELD_MPA),
@@ -192,7 +205,7 @@ def _side_by_side(one: pd.DataFrame, two: pd.DataFrame, angle: str) -> pd.DataFr
     return both[(both != 0.0).all(axis=1)]
 
 
-def _column(rows: pd.DataFrame, name: str, missing: float = np.nan) -> np.ndarray:
+def _column(rows: pd.DataFrame, name: str | None, missing: float = np.nan) -> np.ndarray:
     if name not in rows:
         return np.full(len(rows), missing)
     return rows[name].fillna(missing).to_numpy(float)

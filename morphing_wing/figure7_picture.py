@@ -69,6 +69,7 @@ def figure(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> Figure:
         for key, curve in rows.groupby(KEYS, sort=False):
             end = key in stopped
             _curve(above, panel, curve, panel.line, light=True)
+            _curve(above, panel, curve, panel.space, light=True, linestyle=":")
             _curve(above, panel, curve, panel.angle, end=end)
             _curve(below, panel, curve, panel.other, end=end)
         _stated(above, name, panel, both_ways=rows["direction"].nunique() > 1,
@@ -86,8 +87,8 @@ def figure(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> Figure:
 
 
 def _curve(
-    axes: Axes, panel: Panel, curve: pd.DataFrame, column: str, light: bool = False,
-    end: bool = False,
+    axes: Axes, panel: Panel, curve: pd.DataFrame, column: str | None, light: bool = False,
+    end: bool = False, linestyle: str = "-",
 ) -> None:
     """Draw one curve from rest; dashed from where the skin passes through something."""
     if column not in curve or curve[column].isna().all():
@@ -101,7 +102,7 @@ def _curve(
     look = {"color": colour, "linewidth": 0.9 if light else 1.5 if open_marker else 2.2,
             "alpha": 0.75 if light else 1.0}
     into_contact = flags["contact"] | np.append(flags["contact"][1:], False)
-    axes.plot(x, np.where(flags["contact"], np.nan, y), **look)
+    axes.plot(x, np.where(flags["contact"], np.nan, y), linestyle=linestyle, **look)
     axes.plot(x, np.where(into_contact, y, np.nan), linestyle=_DASHES, **look)
     if light:
         return
@@ -150,6 +151,9 @@ def _legend(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> list[Line2D]:
         Line2D([], [], color="#333", linewidth=2.0, label="rotation of the end face"),
         Line2D([], [], color="#333", linewidth=0.9, label="deflection line: perhaps what was read"),
     ]
+    if "trailing_edge_deg" in table and "cables" in set(table["panel"]):
+        entries.append(Line2D([], [], color="#333", linewidth=0.9, linestyle=":",
+                              label="trailing edge against the horizontal: or this"))
     if "contact" in table and table["contact"].any():
         entries.append(Line2D([], [], color="#333", linewidth=2.0, linestyle=_DASHES,
                               label="no contact forces: skin passes through"))

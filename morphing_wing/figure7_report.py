@@ -29,10 +29,10 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
     """
     yield _table(
         "Figure 7: where the paper's angle is reached, and the coupling at the last load",
-        ["curve", "by the end face", "by the deflection line", "coupling", "resin yields at",
-         "skin touches from", "unstable from"],
-        [[_name(f), words(f), words(f, "line_"), _coupling(f), _load(f, f["resin_yields_at"]),
-          _touching(f), _load(f, f["unstable_from"])]
+        ["curve", "by the end face", "the same in space", "by the deflection line", "coupling",
+         "resin yields at", "skin touches from", "unstable from"],
+        [[_name(f), words(f), words(f, "space_"), words(f, "line_"), _coupling(f),
+          _load(f, f["resin_yields_at"]), _touching(f), _load(f, f["unstable_from"])]
          for f in facts["curves"]])
     if facts["skin"]:
         yield _table(

@@ -93,7 +93,7 @@ class Newton:
         admissible: Callable[[PETSc.Vec, PETSc.Vec], float] | None = None,
     ) -> None:
         blas.check()
-        self.system = system
+        self.system, self.prefix = system, prefix
         self.relative_tolerance = relative_tolerance
         # A strong reference to a method of the scene that owns this solver would be a cycle.
         self._before_tangent = before_tangent and weakref.WeakMethod(before_tangent)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import pathlib
 import re
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,6 +19,7 @@ from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
     from morphing_wing.figure7_result import Curve, Figure7
+    from morphing_wing.geometry.wing import WingGeometry
     from morphing_wing.path import Path
     from morphing_wing.progress import Progress
 
@@ -25,7 +27,7 @@ __all__ = ["paper"]
 
 COMING = ("table2", "table3", "fig5", "fig6")
 SKINS = {"on": (True,), "off": (False,), "both": (True, False)}
-LARGEST_MPA, LARGEST_N = 0.040, 0.5
+ROOTS = ("clamped", "free")
 
 
 def paper(
@@ -39,6 +41,9 @@ def paper(
         bool, typer.Option("--both-directions/--one-direction", help="Up as well, or only down.")
     ] = False,
     skin: Annotated[str, typer.Option(metavar="S", help="on, off or both.")] = "both",
+    skin_root: Annotated[
+        str, typer.Option(metavar="R", help="The skin's edge at the root: clamped or free.")
+    ] = "clamped",
     contact: Annotated[
         bool, typer.Option("--contact/--no-contact", help="Contact forces in the pocket, or none.")
     ] = True,
@@ -61,25 +66,28 @@ def paper(
     folder = pathlib.Path("output") / "fig7" if out is None else out
     fidelities = tuple(dict.fromkeys(fidelity or ["draft"]))
     comm = MPI.COMM_WORLD
-    check(name, fidelities, points, skin)
+    check(name, fidelities, points, skin, skin_root)
     grid = grid_of(map_points) if reachable else None
     on_root(comm, lambda: check_folder(folder))
 
     from morphing_wing.figure7 import figure7
+    from morphing_wing.geometry.wing import WingGeometry
 
+    geometry = WingGeometry.prototype(skin_root=skin_root)
     study = figure7(
-        fidelities,
-        np.linspace(0.0, LARGEST_MPA, points + 1), np.linspace(0.0, LARGEST_N, points + 1),
-        SKINS[skin], ("down", "up") if both_directions else ("down",),
+        fidelities, *loads(points + 1, points + 1),
+        SKINS[skin], ("down", "up") if both_directions else ("down",), geometry,
         comm=comm, begin=announced, done=lambda *found: saved(folder, *found), contact=contact,
     )
     say(study)
-    reached = grid is None or mapped(grid, fidelities, skin, folder, contact)
+    reached = grid is None or mapped(grid, fidelities, skin, geometry, folder, contact)
     typer.echo(f"results are in {folder}")
     return DONE if study.converged and reached else STOPPED
 
 
-def check(name: str, fidelities: tuple[str, ...], points: int, skin: str) -> None:
+def check(
+    name: str, fidelities: tuple[str, ...], points: int, skin: str, skin_root: str
+) -> None:
     """Refuse what cannot be computed, before DOLFINx is loaded."""
     if name in COMING:
         raise InputError(f"{name}: is not there yet, must be fig7")
@@ -89,6 +97,7 @@ def check(name: str, fidelities: tuple[str, ...], points: int, skin: str) -> Non
                 f"one of {', '.join(FIDELITIES['wing'])}")
     require(points >= 1, "--points", points, "", "at least 1")
     require(skin in SKINS, "--skin", skin, "", "on, off or both")
+    require(skin_root in ROOTS, "--skin-root", skin_root, "", "clamped or free")
 
 
 def grid_of(text: str) -> tuple[int, int]:
@@ -97,6 +106,14 @@ def grid_of(text: str) -> tuple[int, int]:
     sizes = tuple(map(int, found.groups())) if found else (0, 0)
     require(min(sizes) >= 2, "--map-points", text, "", "two numbers of at least 2, such as 4x4")
     return sizes
+
+
+def loads(n_pressures: int, n_tensions: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return so many pressures and tensions, from zero to the largest of Figure 7."""
+    from morphing_wing.figure7 import PRESSURES, TENSIONS
+
+    return (np.linspace(0.0, PRESSURES[-1], n_pressures),
+            np.linspace(0.0, TENSIONS[-1], n_tensions))
 
 
 def announced(curve: Curve, wing: Any) -> Progress:
@@ -126,12 +143,11 @@ def say(study: Figure7) -> None:
 
 
 def mapped(
-    grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, folder: pathlib.Path,
-    contact: bool,
+    grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, geometry: WingGeometry,
+    folder: pathlib.Path, contact: bool,
 ) -> bool:
     """Run and save the map of each wing asked for; return whether all its points were reached."""
     from morphing_wing.figure7_result import Curve
-    from morphing_wing.geometry.wing import WingGeometry
     from morphing_wing.reach import reach
 
     whole = True
@@ -139,10 +155,11 @@ def mapped(
         for with_skin in SKINS[skin]:
             curve = Curve("map", with_skin, "down", fidelity)
             found = reach(
-                np.linspace(0.0, LARGEST_MPA, grid[0]), np.linspace(0.0, LARGEST_N, grid[1]),
-                fidelity, curve.shape(WingGeometry.prototype()),
+                *loads(*grid), fidelity, curve.shape(geometry),
                 begin=lambda wing, c=curve: announced(c, wing), contact=contact,
             )
             found.save(folder / curve.slug)
             whole = whole and found.path.converged
+            del found
+            gc.collect()  # at one point on all ranks, as in `figure7`
     return whole

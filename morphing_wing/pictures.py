@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -12,7 +13,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 from morphing_wing.curves import STYLE
 from morphing_wing.drawing import Cut, Drawing, default_drawing
-from morphing_wing.fields import scene_grids, shown
+from morphing_wing.fields import mode_grids, scene_grids, shown
 from morphing_wing.renderer import NoRenderer
 from morphing_wing.root import on_root, write_whole
 from morphing_wing.views import View
@@ -20,9 +21,10 @@ from morphing_wing.views import View
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from morphing_wing.modes import Modes
     from morphing_wing.path import Path, State
 
-__all__ = ["NoRenderer", "caption", "render", "render_strip"]
+__all__ = ["NoRenderer", "caption", "render", "render_mode", "render_strip"]
 
 Box = tuple[int, int, int, int]  # x, y from below, width, height in pixels
 
@@ -36,8 +38,13 @@ _LOADS = {
     "lower_MPa": (1000.0, "kPa in the lower chambers"), "cable_N": (1.0, "N in each cable"),
     "gravity_g": (1.0, "times standard gravity"),
 }
+MODE_PART = 0.04
+"""Largest displacement of a drawn mode over the structure's largest extent."""
+
 _RED = "#b00000"
 _CONTACT = "the skin passes through itself or a rib: without contact forces this is fiction"
+_LABELS = {"stretch": "largest principal stretch", "displacement": "displacement, mm",
+           "mode": "mode's displacement, over that of its largest component"}
 _ANGLES = (("span", r"$\varphi_1$"), ("chord", r"$\varphi_2$"))
 
 
@@ -59,7 +66,25 @@ def render(scene: Any, state: State, file: str | os.PathLike) -> pathlib.Path:
         On all ranks, where this machine cannot draw in 3D.
     """
     grids, drawing = _seen(scene, state)
-    on_root(scene.comm, lambda: _draw_state(grids, drawing, scene, state, file))
+    title = f"{scene.name.capitalize()}:  {caption(state)}"
+    on_root(scene.comm, lambda: _draw_state(grids, drawing, title, state.contact, file))
+    return pathlib.Path(file)
+
+
+def render_mode(modes: Modes, i: int, file: str | os.PathLike) -> pathlib.Path:
+    """Draw mode ``i`` on the deformed structure, largest at `MODE_PART` of its size. Collective."""
+    scene, state = modes.scene, modes.state
+    _, drawing = _seen(scene, state)
+    grids = mode_grids(modes, i)
+    title = f"{scene.name.capitalize()}, mode {i + 1}: {modes[i].words()}, at {_loads(state)}"
+
+    def draw() -> None:
+        size = np.ptp(np.concatenate([grid.points for grid in grids.values()]), axis=0).max()
+        for grid in grids.values():
+            grid.point_data["displacement"] += MODE_PART * size * grid.point_data["mode"]
+        _draw_state(grids, replace(drawing, colour_by="mode"), title, state.contact, file)
+
+    on_root(scene.comm, draw)
     return pathlib.Path(file)
 
 
@@ -85,10 +110,6 @@ def render_strip(path: Path, file: str | os.PathLike, most: int = 4) -> pathlib.
 
 def caption(state: State, line_break: str = ":  ") -> str:
     """Return a state's loads and angles, with ``line_break`` between them."""
-    loads = [
-        f"{state.load[name] * factor:.4g} {text}"
-        for name, (factor, text) in _LOADS.items() if state.load.get(name, 0.0) != 0.0
-    ]
     angles = []
     for name, symbol in _ANGLES:
         face, line = (state.measures.get(f"{name}_{kind}_deg") for kind in ("angle", "line"))
@@ -96,8 +117,16 @@ def caption(state: State, line_break: str = ":  ") -> str:
             text = f"{symbol} = {_degrees(face)}"
             also = "" if line is None else f" (deflection line {_degrees(line)})"
             angles.append(text + also)
-    parts = (", ".join(loads) or "no load", ",  ".join(angles))
+    parts = (_loads(state), ",  ".join(angles))
     return line_break.join(part for part in parts if part)
+
+
+def _loads(state: State) -> str:
+    loads = [
+        f"{state.load[name] * factor:.4g} {text}"
+        for name, (factor, text) in _LOADS.items() if state.load.get(name, 0.0) != 0.0
+    ]
+    return ", ".join(loads) or "no load"
 
 
 def _degrees(angle: float) -> str:
@@ -112,13 +141,13 @@ def _seen(scene: Any, state: State) -> tuple[dict, Drawing]:
 
 
 def _draw_state(
-    grids: dict, drawing: Drawing, scene: Any, state: State, file: str | os.PathLike
+    grids: dict, drawing: Drawing, title: str, contact: bool, file: str | os.PathLike
 ) -> None:
     view = View(grids, drawing)
     colours = _colours([view])
     cuts = [None, *view.cuts()]
     with matplotlib.rc_context(STYLE):
-        figure = _figure(f"{scene.name.capitalize()}:  {caption(state)}", state.contact)
+        figure = _figure(title, contact)
         for cut, box in zip(cuts, _page(view, cuts), strict=True):
             low, high = view.extent(cut)
             image = view.image(_inside(box), _scale(high - low, box), colours, cut)
@@ -206,7 +235,7 @@ def _place(figure: Figure, image: np.ndarray, box: Box, note: str, colour: str) 
 def _colours(views: list[View]) -> dict[str, Any]:
     """Return colour map and range: the few peaks at re-entrant corners do not set the scale."""
     values = np.concatenate([view.values() for view in views])
-    low = 1.0 if views[0].shows_stretch else 0.0
+    low = 1.0 if views[0].quantity == "stretch" else 0.0
     high = max(float(np.quantile(values, 0.995)), low + 1e-3)
     return {"cmap": COLOUR_MAP, "clim": (low, high)}
 
@@ -232,5 +261,4 @@ def _colour_bar(figure: Figure, view: View, colours: dict[str, Any]) -> None:
     mappable = ScalarMappable(Normalize(*colours["clim"]), colours["cmap"])
     bar = figure.colorbar(mappable, cax=axes, orientation="horizontal", extend="max")
     bar.outline.set_visible(False)
-    bar.set_label("largest principal stretch" if view.shows_stretch else "displacement, mm",
-                  fontsize=13)
+    bar.set_label(_LABELS[view.quantity], fontsize=13)

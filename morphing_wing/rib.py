@@ -22,6 +22,7 @@ from .forms.cable import cable_potential
 from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
+from .mass import bars_mass
 from .materials import RESIN, Elastic
 from .newton import Newton
 from .path import Path, State
@@ -176,6 +177,10 @@ class Rib(Scene):
 
     def _stored(self) -> list[Any]:
         return [self.beams.energy]
+
+    def masses(self) -> list[np.ndarray]:
+        """Return the lumped mass in kg on each owned unknown."""
+        return [bars_mass(self.beams)]
 
     def _conjugates(self) -> dict[str, float]:
         return {name: compat.assemble_scalar(self.comm, form)

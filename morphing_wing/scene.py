@@ -205,6 +205,13 @@ class Scene(ABC):
             fields={b.function.name: b.function.x.array.copy() for b in self.kept_blocks},
         )
 
+    def present(self) -> State:
+        """Return the state in which the scene stands, measured anew."""
+        if self._in_use is None:
+            raise InputError(f"{self.name}: must have been led to a load first")
+        as_it_is = NewtonResult(True, "converged", 0, 0.0, self.newton.factor.surplus)
+        return self.state(self._load, as_it_is, 0.0, requested=True)
+
     def show(self, state: State) -> None:
         """Copy a state's fields into the functions."""
         for block in self.kept_blocks:
@@ -261,6 +268,10 @@ class Scene(ABC):
     @abstractmethod
     def _stored(self) -> list[Any]:
         """Return the stored energies, UFL functionals without the loads' potentials."""
+
+    @abstractmethod
+    def masses(self) -> list[np.ndarray]:
+        """Return the lumped mass in kg on each owned unknown, of each kept block."""
 
     @abstractmethod
     def _measures(self) -> dict[str, float]:

@@ -18,6 +18,7 @@ from .elastomer import Elastomer
 from .elements import element as element_named
 from .geometry.spar import SparGeometry, SparMeshing
 from .iterate import Iterate
+from .mass import body_mass
 from .materials import DRAGON_SKIN_30, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -174,6 +175,10 @@ class Spar(Scene):
     def _parts(self) -> list[Any]:
         """Return what stores energy, in the order of the blocks."""
         return [self.body] if self.contact is None else [self.body, self.contact]
+
+    def masses(self) -> list[np.ndarray]:
+        """Return the lumped mass in kg on each owned unknown."""
+        return [body_mass(self.body)]
 
     def _conjugates(self) -> dict[str, float]:
         return self._chambers.volumes()

@@ -126,6 +126,13 @@ class EquilibriumSystem:
         """Global number of unknowns, constrained ones included."""
         return self.x.getSize()
 
+    @property
+    def free(self) -> np.ndarray:
+        """Which of this rank's unknowns are not held, as a mask."""
+        free = np.ones(self.n_owned, dtype=bool)
+        free[self._constrained_rows - self._first] = False
+        return free
+
     # -- moving between the vector and the functions ------------------------------------------
 
     def pull(self, x: PETSc.Vec) -> None:

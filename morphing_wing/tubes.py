@@ -9,7 +9,13 @@ import numpy as np
 if TYPE_CHECKING:
     import pyvista
 
-__all__ = ["tubes"]
+__all__ = ["magnitude", "tubes"]
+
+
+def magnitude(grid: pyvista.DataSet) -> np.ndarray:
+    """Return the length of the grid's ``mode``, or of its ``displacement`` in mm if it has none."""
+    data = grid.point_data
+    return np.linalg.norm(data["mode" if "mode" in data else "displacement"], axis=1)
 
 
 def tubes(
@@ -30,7 +36,7 @@ def tubes(
 
     Returns
     -------
-    pyvista.PolyData with point array ``magnitude``, the length of the displacement in mm. Bars end
+    pyvista.PolyData with point array ``magnitude``, see there. Bars end
     in spheres, so that they join at any angle.
     """
     import pyvista
@@ -38,10 +44,10 @@ def tubes(
     cells = grid.cells.reshape(grid.n_cells, -1)[:, 1:]
     displacement = np.asarray(grid.point_data["displacement"])
     points = grid.points + displacement * deformed
-    magnitude = np.linalg.norm(displacement, axis=1)
+    lengths = magnitude(grid)
     shapes = _shapes(cells.shape[1], pieces)
     axes = np.einsum("ta,cai->cti", shapes, points[cells])
-    along = np.einsum("ta,ca->ct", shapes, magnitude[cells])
+    along = np.einsum("ta,ca->ct", shapes, lengths[cells])
     radii = np.broadcast_to(np.asarray(radius, dtype=float), np.shape(radius) or (1,))
     radii = radii[np.asarray(grid.cell_data["cell"])] if len(radii) > 1 else np.full(
         grid.n_cells, radii[0])

@@ -10,7 +10,7 @@ import numpy as np
 from morphing_wing.drawing import Cut, Drawing
 from morphing_wing.mirror import mirrored
 from morphing_wing.renderer import choose_renderer
-from morphing_wing.tubes import tubes
+from morphing_wing.tubes import magnitude, tubes
 
 if TYPE_CHECKING:
     import pyvista
@@ -43,17 +43,16 @@ class View:
         self._all = (*self.solids, *self.lines.values())
 
     @property
-    def shows_stretch(self) -> bool:
-        """Whether the colours show stretch (else displacement, mm)."""
-        return bool(self.solids) and self.drawing.colour_by == "stretch"
+    def quantity(self) -> str:
+        """What the colours show, one of `Drawing.colour_by`: lines alone never show stretch."""
+        chosen = self.drawing.colour_by
+        return chosen if self.solids or chosen != "stretch" else "displacement"
 
     def values(self) -> np.ndarray:
         """Return what the colours show, at the points of the solids (of the lines without any)."""
-        if self.shows_stretch:
+        if self.quantity == "stretch":
             return np.concatenate([grid.point_data["stretch"] for grid in self.solids])
-        return np.concatenate([
-            np.linalg.norm(grid.point_data["displacement"], axis=1)
-            for grid in self.solids or self.lines.values()])
+        return np.concatenate([magnitude(grid) for grid in self.solids or self.lines.values()])
 
     def cuts(self) -> list[Cut]:
         """Return the cuts to be drawn beside the whole."""
@@ -161,7 +160,7 @@ class View:
         if "opacity" in look:
             surface = _far_to_near(surface, self._axes(cut)[2])
         plotter.add_mesh(
-            surface, scalars="stretch" if self.shows_stretch else "magnitude",
+            surface, scalars="stretch" if self.quantity == "stretch" else "magnitude",
             show_scalar_bar=False, smooth_shading=True, ambient=0.36, diffuse=0.72, specular=0.1,
             specular_power=12.0, **look, **colours)
 
@@ -212,7 +211,7 @@ def _surface(
 ) -> pyvista.PolyData:
     grid = grid.copy()
     displacement = grid.point_data["displacement"]
-    grid.point_data["magnitude"] = np.linalg.norm(displacement, axis=1)
+    grid.point_data["magnitude"] = magnitude(grid)
     if deformed:
         grid.points = grid.points + displacement
     return grid.extract_surface(nonlinear_subdivision=subdivision, algorithm="dataset_surface")

@@ -27,6 +27,7 @@ from .geometry.wing_mesh import WingMeshing, wing_mesh
 from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
+from .mass import bars_mass, body_mass
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -312,7 +313,7 @@ class Wing(Scene):
             return None
         n = self.body.block.n_owned
         mass = np.zeros(self.system.n_owned)
-        mass[:n] = self.body.region_mass("skin")
+        mass[:n] = self.body.lumped_volume("skin")
         displacements = np.zeros(self.system.n_owned, dtype=bool)
         displacements[:n] = self.body.is_displacement()
         return Regularisation(mass, displacements)
@@ -345,6 +346,10 @@ class Wing(Scene):
         """Return what stores energy, in the order of the blocks."""
         parts = (self.body, self.ribs, self.glue, self.contact)
         return [part for part in parts if part is not None]
+
+    def masses(self) -> list[np.ndarray]:
+        """Return the lumped mass in kg on each owned unknown, of the elastomer and the ribs."""
+        return [body_mass(self.body)] + ([bars_mass(self.ribs)] if self.ribs is not None else [])
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()

@@ -112,7 +112,7 @@ def test_scene_of_lines_alone_is_coloured_by_displacement(tmp_path):
     path.render(tmp_path / "rib.png")
     assert drawn(matplotlib.image.imread(tmp_path / "rib.png"))[150:850].mean() > 0.005
     view = View(scene_grids(scene, state), Drawing())
-    assert not view.shows_stretch
+    assert view.quantity == "displacement"
     assert view.values().max() == pytest.approx(2.0)
 
 

@@ -67,7 +67,7 @@ def test_another_load_compiles_no_tangent_anew_but_its_own(monkeypatch):
 @pytest.mark.quick
 def test_only_displacements_of_the_skin_have_its_mass():
     scene = wing()
-    mass, moves = scene.body.region_mass("skin"), scene.body.is_displacement()
+    mass, moves = scene.body.lumped_volume("skin"), scene.body.is_displacement()
     assert len(mass) == scene.body.block.n_owned and not moves.all()
     assert np.all(mass[~moves] == 0.0)
     mesh = wing_mesh(GEOMETRY, MESHING)

@@ -35,7 +35,7 @@ class Strip:
         rule = None
         if regularised:
             everywhere = np.ones(self.system.n_owned, dtype=bool)
-            rule = Regularisation(body.region_mass("body"), everywhere)
+            rule = Regularisation(body.lumped_volume("body"), everywhere)
         self.newton = Newton(
             self.system, "test_strip_", rule, body.n_pressures(), max_iterations=60,
             before_tangent=body.iterate.before_tangent if body.iterate else None)

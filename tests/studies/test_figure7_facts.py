@@ -21,6 +21,13 @@ def test_pressure_of_12_degrees_is_interpolated_between_points():
     assert words(fact) == "12 deg at 20 kPa"
 
 
+def test_the_trailing_edge_in_space_may_be_what_the_protractor_read():
+    table = curve("cables", trailing_edge_deg=[0.0, 20.0, 40.0, 80.0])
+    fact = only(table)
+    assert words(fact, "space_") == "35 deg at 0.175 N"
+    assert words(only(curve("pressure")), "space_") == "-"
+
+
 def test_an_angle_that_is_not_reached_is_told_with_the_last_load():
     fact = only(curve("pressure"))
     assert fact["line_reached_at"] is None
