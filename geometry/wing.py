@@ -15,7 +15,7 @@ _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_th
             "side_thickness", "nose_length", "skin_thickness", "foot_height", "foot_width",
             "tail_bond_length")
 # How the skin may be built, defaults first.
-_OPTIONS = {
+OPTIONS = {
     "skin_root": ("clamped", "free"),
     "tip_wall": (False, True),
     "skin_over_spar": (False, True),
@@ -201,7 +201,7 @@ class WingGeometry:
                 f"less than {room:.4g} mm, or the chambers are taller than the aerofoil")
 
     def _check_options(self) -> None:
-        for name, allowed in _OPTIONS.items():
+        for name, allowed in OPTIONS.items():
             value, default = getattr(self, name), allowed[0]
             ok = type(value) is type(default) and value in allowed
             require(ok, name, value, "", " or ".join(map(repr, allowed)))

@@ -19,7 +19,7 @@ from typing import Annotated, Any
 import typer
 from mpi4py import MPI
 
-from morphing_wing.errors import InputError, one_line
+from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
 from morphing_wing.together import (
@@ -59,6 +59,9 @@ def solve(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on after the last step that DIR/restart.npz holds.")
     ] = False,
+    modes: Annotated[
+        int, typer.Option(metavar="N", help="Draw N modes of vibration about the last state.")
+    ] = 0,
 ) -> int:
     """Solve a scene and write summary.json, table.csv, pictures and fields.
 
@@ -69,6 +72,7 @@ def solve(
 
     comm = MPI.COMM_WORLD
     folder = pathlib.Path("output") / scene.stem if out is None else out
+    require(modes >= 0, "--modes", modes, "", "0 or more")
 
     def read() -> Any:
         checked = read_scene(or_hint(scene), fidelity)
@@ -97,8 +101,20 @@ def solve(
         on_root(comm, lambda: begin_saving(folder))
         path.save(folder)
         on_root(comm, (folder / SAVING).unlink)
+    if modes and len(path):
+        draw_modes(built, modes, folder / "modes")
     typer.echo(f"results are in {folder}")
     return DONE if path.converged else STOPPED
+
+
+def draw_modes(scene: Any, n: int, folder: pathlib.Path) -> None:
+    """Write and print the modes about a scene's present state."""
+    from morphing_wing.modes import modes
+
+    found = modes(scene, n)
+    found.save(folder)
+    frequencies = ", ".join(mode.words() for mode in found)
+    typer.echo(f"{len(found)} mode(s) about the last state: {frequencies}")
 
 
 @app.command()

@@ -12,6 +12,7 @@ import typer
 from mpi4py import MPI
 
 from morphing_wing.errors import InputError, require
+from morphing_wing.geometry.wing import OPTIONS, WingGeometry
 from morphing_wing.out_folder import check_folder
 from morphing_wing.root import on_root
 from morphing_wing.scene_file import FIDELITIES
@@ -19,7 +20,6 @@ from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
     from morphing_wing.figure7_result import Curve, Figure7
-    from morphing_wing.geometry.wing import WingGeometry
     from morphing_wing.path import Path
     from morphing_wing.progress import Progress
 
@@ -27,7 +27,6 @@ __all__ = ["paper"]
 
 COMING = ("table2", "table3", "fig5", "fig6")
 SKINS = {"on": (True,), "off": (False,), "both": (True, False)}
-ROOTS = ("clamped", "free")
 
 
 def paper(
@@ -71,7 +70,6 @@ def paper(
     on_root(comm, lambda: check_folder(folder))
 
     from morphing_wing.figure7 import figure7
-    from morphing_wing.geometry.wing import WingGeometry
 
     geometry = WingGeometry.prototype(skin_root=skin_root)
     study = figure7(
@@ -97,7 +95,8 @@ def check(
                 f"one of {', '.join(FIDELITIES['wing'])}")
     require(points >= 1, "--points", points, "", "at least 1")
     require(skin in SKINS, "--skin", skin, "", "on, off or both")
-    require(skin_root in ROOTS, "--skin-root", skin_root, "", "clamped or free")
+    require(skin_root in OPTIONS["skin_root"], "--skin-root", skin_root, "",
+            " or ".join(OPTIONS["skin_root"]))
 
 
 def grid_of(text: str) -> tuple[int, int]:

@@ -185,8 +185,12 @@ def test_program_refuses_bad_input_with_status_2(tmp_path):
 
 def test_program_solves_a_spar_and_writes_the_summary(tmp_path):
     (tmp_path / "spar.toml").write_text(SPAR)
-    done = run([BIN, "solve", "spar.toml", "--out", "results"], cwd=tmp_path)
+    done = run([BIN, "solve", "spar.toml", "--out", "results", "--modes", "2"], cwd=tmp_path)
     assert done.returncode == 0, done.stderr
+    assert "2 mode(s) about the last state" in done.stdout
+    modes = tmp_path / "results" / "modes"
+    assert (modes / "mode_2.png").stat().st_size > 10_000
+    assert (modes / "fields" / "modes.pvd").read_text().count("<DataSet") == 2
     summary = json.loads((tmp_path / "results" / "summary.json").read_text())
     assert summary["fidelity"] == "draft" and summary["converged"]
     assert np.all(np.diff([0.0, *summary["span_angle_deg"]]) > 0.1)
