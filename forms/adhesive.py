@@ -82,3 +82,8 @@ def adhesive_energy(energy: Any, kappa: Any, onset: Any, last: Any) -> Any:
     sound = 1.0 - damage(kappa, last)
     before = sound * energy + spent(kappa) - sound * onset * kappa**2
     return ufl.conditional(ufl.gt(reached, kappa), spent(reached), before)
+
+
+def dissipated_energy(kappa: Any, onset: Any, last: Any) -> Any:
+    """Return the energy per glued area in N/mm that damage took: what is left at rest."""
+    return adhesive_energy(0.0, kappa, onset, last)

@@ -7,9 +7,15 @@ from typing import Any
 import numpy as np
 import ufl
 from mpi4py import MPI
-from scipy.spatial.transform import Rotation
 
-from .forms.adhesive import adhesive_energy, damage, foot_displacement, separation_energies
+from . import compat
+from .forms.adhesive import (
+    adhesive_energy,
+    damage,
+    dissipated_energy,
+    foot_displacement,
+    separation_energies,
+)
 from .forms.beam import rotation
 from .forms.mixed_point import mixed_point_correction
 from .geometry.patches import PatchPoints
@@ -41,12 +47,14 @@ class GluedPatches:
         UFL functionals in N mm: the potential of the step, and what is stored in a converged state.
     tangent_correction, iterate
         Bilinear form that makes the tangent robust, and the iterates that it needs.
+    damage
+        Of glue that may fail: returns each point's damage, 0 to 1, the same on every rank.
     """
 
     def __init__(
         self, comm: MPI.Comm, points: PatchPoints, origins: np.ndarray, law: Adhesive
     ) -> None:
-        self.law, self._all = law, points
+        self.law, self._all, self._comm = law, points, comm
         n, size = points.shapes.shape
         self.history = np.ones(n)
         self.utilisation = np.zeros(n)
@@ -70,19 +78,25 @@ class GluedPatches:
             return foot_displacement(X, origin, *foot(q)) - u
 
         s = separation(self.function)
+        # Constants, so that another law compiles nothing.
+        stiffness = self._mesh.constant(law.stiffness)
         if not law.fails:
-            self.energy = self.stored = self._mesh.sum(
-                0.5 * law.stiffness * area * ufl.inner(s, s))
+            self.energy = self.stored = self._mesh.sum(0.5 * stiffness * area * ufl.inner(s, s))
             sound: Any = 1.0
         else:
+            shear, onset, last = map(self._mesh.constant,
+                                     (law.shear_stiffness, law.onset, law.last))
             turned = rotation(foot(self.function)[1]) * normal
-            e, closing = separation_energies(s, turned, law.stiffness, law.shear_stiffness)
-            sound = 1.0 - damage(kappa, law.last)
-            self.energy = self._mesh.sum(
-                area * (adhesive_energy(e, kappa, law.onset, law.last) + closing))
+            e, closing = separation_energies(s, turned, stiffness, shear)
+            sound = 1.0 - damage(kappa, last)
+            self.energy = self._mesh.sum(area * (adhesive_energy(e, kappa, onset, last) + closing))
             self.stored = self._mesh.sum(area * (sound * e + closing))
+            self._lambda = self._mesh.each(ufl.sqrt(e / onset))
+            self.damage = self._mesh.each(damage(kappa, last))
+            self._spent = compat.form(
+                self._mesh.sum(area * dissipated_energy(kappa, onset, last)))
         self.tangent_correction = self._mesh.sum(mixed_point_correction(
-            lambda q: [separation(q)[i] for i in range(3)], [sound * law.stiffness * area] * 3,
+            lambda q: [separation(q)[i] for i in range(3)], [sound * stiffness * area] * 3,
             self.function, self.iterate.last, self.iterate.step))
 
     def number(
@@ -108,7 +122,7 @@ class GluedPatches:
         """Take the present state as converged: what broke stays broken. Collective."""
         if not self.law.fails:
             return
-        self.utilisation = self._mesh.gathered(self._lambda())
+        self.utilisation = self._lambda()
         self.history = np.maximum(self.history, self.utilisation)
         self._give()
 
@@ -117,36 +131,9 @@ class GluedPatches:
         self.history = np.array(history, dtype=float)
         self._give()
 
-    def damage(self) -> np.ndarray:
-        """Return each point's damage, 0 to 1, the same on every rank."""
-        last, kappa = self.law.last, self.history
-        return np.where(kappa < last, last * (kappa - 1.0) / (kappa * (last - 1.0)), 1.0)
-
     def dissipated(self) -> float:
         """Return the energy in N mm that the damage took."""
-        if not self.law.fails:
-            return 0.0
-        last, kappa = self.law.last, np.minimum(self.history, self.law.last)
-        spent = 1.0 + ((last - 1.0) ** 2 - (last - kappa) ** 2) / (last - 1.0)
-        held = (1.0 - self.damage()) * kappa**2
-        return float(np.sum(self._all.area * self.law.onset * (spent - held)))
-
-    def _lambda(self) -> np.ndarray:
-        """Return lambda at this rank's points."""
-        q, part = self._mesh.values(), self._mine
-        size = self._all.shapes.shape[1]
-        nodes, translation = q[:, : 3 * size].reshape(-1, size, 3), q[:, 3 * size : 3 * size + 3]
-        turn = Rotation.from_rotvec(q[:, 3 * size + 3 :].reshape(-1, 3)) if len(q) else None
-        if turn is None:
-            return np.empty(0)
-        arm = self._all.place[part] - self._origins
-        u = np.einsum("na,nai->ni", self._all.shapes[part], nodes)
-        s = translation + turn.apply(arm) - arm - u
-        along = np.sum(s * turn.apply(self._all.normal[part]), axis=1)
-        across = np.sum(s * s, axis=1) - along**2
-        law = self.law
-        e = 0.5 * (law.stiffness * np.maximum(along, 0.0) ** 2 + law.shear_stiffness * across)
-        return np.sqrt(np.maximum(e, 0.0) / law.onset)
+        return compat.assemble_scalar(self._comm, self._spent) if self.law.fails else 0.0
 
     def _give(self) -> None:
         part, points = self._mine, self._all

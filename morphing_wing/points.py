@@ -7,6 +7,7 @@ plain UFL, and its derivatives are compiled like all others.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -69,6 +70,24 @@ class PointMesh:
         parts = self.mesh.comm.allgather((self.mine, values))
         order = np.argsort(np.concatenate([points for points, _ in parts]))
         return np.concatenate([part for _, part in parts])[order]
+
+    def constant(self, value: float) -> fem.Constant:
+        """Return a number that forms may hold without being compiled anew for another value."""
+        return fem.Constant(self.mesh, compat.scalar_type(value))
+
+    def each(self, integrand: Any) -> Callable[[], np.ndarray]:
+        """Return what evaluates an integrand at all points, in order. Collective, as that is."""
+        space = compat.discontinuous_space(self.mesh, 0)
+        function = fem.Function(space)
+        cells = np.array([space.dofmap.cell_dofs(c)[0] for c in range(len(self.mine))], dtype=int)
+        form = compat.form(self.sum(integrand * ufl.TestFunction(space)))
+
+        def values() -> np.ndarray:
+            function.x.array[:] = 0.0
+            compat.assemble_vector(form, function.x.array)
+            return self.gathered(function.x.array[cells])
+
+        return values
 
     def sum(self, integrand: Any) -> Any:
         """Return the sum of an integrand over all points, a UFL functional."""

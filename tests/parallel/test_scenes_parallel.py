@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from morphing_wing.fields import mode_grids
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.materials import Adhesive
+from morphing_wing.modes import modes
 from morphing_wing.rib import Rib
 from morphing_wing.spar import Spar
 from morphing_wing.summary import summary
@@ -125,3 +127,21 @@ def test_a_wing_whose_glue_gives_way_is_the_same():
         return path
 
     compare(run, size=1e-7)
+
+
+def test_modes_are_the_same():
+    def found(comm):
+        wing = small_wing(comm=comm)
+        assert wing.actuate(upper=0.01).converged
+        return modes(wing, 3)
+
+    many, one = found(MPI.COMM_WORLD), found(MPI.COMM_SELF)
+    np.testing.assert_allclose(
+        many.table()["frequency_Hz"], one.table()["frequency_Hz"], rtol=RELATIVE)
+    for i in range(3):
+        for name, grid in mode_grids(many, i).items():
+            alone = mode_grids(one, i)[name].point_data["mode"]
+            if MPI.COMM_WORLD.rank == 0:
+                shape = grid.point_data["mode"]
+                sign = np.sign(np.vdot(shape, alone))
+                np.testing.assert_allclose(sign * shape, alone, atol=1e-5)
