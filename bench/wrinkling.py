@@ -4,7 +4,8 @@ The prototype of the paper's Section 5.1, with skin and ribs, without contact fo
 touches up to here), is inflated twice: with Newton's method regularised where the tangent has
 negative pivots, as everybody's wing is, and by a plain one. At each point the table gives the
 frequencies of the slowest modes, the negative pivots, and the difference of the two wings' angles.
-The modes of the point with the slowest one are drawn. Some minutes at draft on two ranks:
+The modes of the softest point (product of their eigenvalues) are drawn. Eight minutes at draft on
+two ranks:
 
     mpirun -n 2 python bench/wrinkling.py --out wrinkling
 """
@@ -36,25 +37,25 @@ class Plain(Wing):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fidelity", default="draft", choices=["draft", "standard"])
-    parser.add_argument("--to", type=float, default=20.0, metavar="KPA")
-    parser.add_argument("--points", type=int, default=8, metavar="N")
+    parser.add_argument("--kpa", type=float, nargs="+", metavar="P",
+                        default=[5, 8, 10, 10.5, 11, 11.5, 12, 12.5, 15, 20])
     parser.add_argument("--cells", type=int, default=18, metavar="N", help="chambers in a row")
     parser.add_argument("--modes", type=int, default=3, metavar="N", help="drawn (at least 3)")
     parser.add_argument("--out", type=Path, default=Path("wrinkling"), metavar="DIR")
     arguments = parser.parse_args()
-    pressures = np.linspace(0.0, arguments.to, arguments.points + 1)[1:] / 1000.0
     wing, plain = (
         kind(WingGeometry.prototype(n_cells=arguments.cells), fidelity=arguments.fidelity,
              contact=False) for kind in (Wing, Plain))
-    rows, slowest = [], None
-    for pressure in pressures:
+    rows, softest, least = [], None, np.inf
+    for kpa in arguments.kpa:
+        pressure = kpa / 1000.0
         path = wing.actuate(upper=pressure)
         found = modes(wing, arguments.modes)
         other = plain.actuate(upper=pressure)
-        rows.append(row(path, found, other) | {"kPa": 1000.0 * pressure})
-        if slowest is None or found[0].eigenvalue < slowest[0].eigenvalue:
-            slowest = found
-    slowest.save(arguments.out)
+        rows.append(row(path, found, other) | {"kPa": kpa})
+        if (product := np.prod([mode.eigenvalue for mode in found])) < least:
+            softest, least = found, product
+    softest.save(arguments.out)
     if wing.comm.rank == 0:
         pd.DataFrame(rows).to_csv(arguments.out / "wrinkling.csv", index=False)
         Console(width=150).print(as_table(rows))

@@ -120,7 +120,8 @@ class Contact:
         self.energy = self._points.sum(contact_energy(gap(self.function), weight, soft))
         self.tangent_correction = self._points.sum(contact_correction(
             gap, weight, soft, self.function, self.iterate.last, self.iterate.step))
-        self._force = self._points.sum(contact_force(gap(self.function), weight, soft))
+        self._force = compat.form(
+            self._points.sum(contact_force(gap(self.function), weight, soft)))
 
     # -- which facet opposes which node -------------------------------------------------------
 
@@ -193,7 +194,7 @@ class Contact:
 
     def total_force(self) -> float:
         """Return the sum of the contact forces' magnitudes in N. Collective."""
-        return compat.assemble_scalar(self._comm, compat.form(self._force))
+        return compat.assemble_scalar(self._comm, self._force)
 
     def measures(self) -> dict[str, float]:
         """Return what is measured of the present state. Collective."""
@@ -266,7 +267,6 @@ class Contact:
         self._points.set_data(np.concatenate(
             [*shapes, self._X, place, first, second, self._radius[:, None],
              self._weights[:, None]], axis=1))
-
 
     def _opposed(self) -> np.ndarray:
         """Return the deformed nodes of each pair's facet, (n_pairs, facet nodes, 3)."""

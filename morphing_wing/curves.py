@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from morphing_wing.path import Path
 
-__all__ = ["AXES", "STYLE", "plot_path", "plot_paths"]
+__all__ = ["AXES", "STYLE", "plot_path", "plot_paths", "save_figure"]
 
 # Column of the table -> (factor to the drawn unit, text of the axis).
 AXES = {
@@ -81,7 +81,7 @@ def plot_path(path: Path, file: str | os.PathLike) -> pathlib.Path:
             above.annotate(f"stopped: {path.reason}", (0.0, 1.0), (0, 6), "axes fraction",
                            textcoords="offset points", color="#a00000", fontsize=9)
         _cost(energy, table, load)
-        return _save(figure, file)
+        return save_figure(figure, file)
 
 
 def plot_paths(
@@ -124,7 +124,7 @@ def plot_paths(
         axes.set_xlabel(AXES.get(load, (1.0, load))[1])
         if angle not in ANGLES:
             axes.set_ylabel(angle)
-        return _save(figure, file)
+        return save_figure(figure, file)
 
 
 def _figure(size: tuple[float, float], rows: int) -> tuple[Figure, list[Axes]]:
@@ -205,7 +205,8 @@ def _cost(axes: Axes, table: pd.DataFrame, load: str) -> None:
     axes.legend(loc="upper left", fontsize=9.5)
 
 
-def _save(figure: Figure, file: str | os.PathLike) -> pathlib.Path:
+def save_figure(figure: Figure, file: str | os.PathLike) -> pathlib.Path:
+    """Write a figure whole or not at all, in the kind that the file's suffix says."""
     kind = pathlib.Path(file).suffix.lstrip(".").lower()
     if kind not in figure.canvas.get_supported_filetypes():
         raise InputError(f"file = {str(file)!r}: must end in .png, .pdf or .svg")

@@ -19,9 +19,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from morphing_wing.curves import AXES, COLOURS, STYLE
+from morphing_wing.curves import AXES, COLOURS, STYLE, save_figure
 from morphing_wing.figure7_facts import KEYS, PANELS, Panel
-from morphing_wing.root import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,9 +52,7 @@ def draw(
         Curves, by (panel, skin, direction, fidelity), that ended before their last load.
     """
     with matplotlib.rc_context(STYLE):
-        drawn = figure(table, stopped or {})
-        kind = pathlib.Path(file).suffix.lstrip(".").lower()
-        return write_whole(file, lambda name: drawn.savefig(name, format=kind))
+        return save_figure(figure(table, stopped or {}), file)
 
 
 def figure(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> Figure:

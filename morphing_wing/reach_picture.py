@@ -13,9 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from morphing_wing.curves import COLOURS, STYLE
+from morphing_wing.curves import COLOURS, STYLE, save_figure
 from morphing_wing.materials import FRACTURE_STRETCH, YIELD_MPA
-from morphing_wing.root import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,9 +37,7 @@ FAMILIES = (("upper_MPa", COLOURS[0], 1000.0, "kPa"), ("cable_N", COLOURS[1], 1.
 def draw(table: pd.DataFrame, file: str | os.PathLike) -> pathlib.Path:
     """Draw a map's table (`reach.Reach.table`) into a PNG, PDF or SVG. Call on rank 0."""
     with matplotlib.rc_context(STYLE):
-        drawn = figure(table)
-        kind = pathlib.Path(file).suffix.lstrip(".").lower()
-        return write_whole(file, lambda name: drawn.savefig(name, format=kind))
+        return save_figure(figure(table), file)
 
 
 def figure(table: pd.DataFrame) -> Figure:

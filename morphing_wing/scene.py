@@ -176,7 +176,7 @@ class Scene(ABC):
 
     def admissible(self, x: PETSc.Vec, step: PETSc.Vec) -> float:
         """Return which part of a Newton step, from x to x - step, to take."""
-        return 1.0 if self.contact is None else self.contact.admissible(self.system, x, step)
+        return self.contact.admissible(self.system, x, step)
 
     def before_tangent(self, iteration: int) -> None:
         """Tell all iterates that a tangent is about to be assembled."""

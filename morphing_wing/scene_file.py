@@ -169,6 +169,10 @@ def materials_of(keys: Any, geometry: Any) -> dict[str, Any]:
         if keys.adhesive is not None:
             if geometry.rib is None:
                 raise InputError('adhesive: must be left out where rib is "none"')
+            twice = (keys.adhesive.stiffness, keys.geometry.glue_stiffness)
+            if None not in twice:
+                raise InputError("adhesive.stiffness and geometry.glue_stiffness are both given: "
+                                 "must be one of them")
             given = {"stiffness": geometry.glue_stiffness} | keys.adhesive.given()
             with located("adhesive", type(keys.adhesive)):
                 materials["adhesive"] = Adhesive(**given)

@@ -25,14 +25,17 @@ class Nodes:
     """
 
     def __init__(
-        self, comm: MPI.Comm, space: Any, block: Block, dofs: np.ndarray, nodes: np.ndarray
+        self, comm: MPI.Comm, space: Any, block: Block, dofs: np.ndarray, names: np.ndarray
     ) -> None:
-        """Take the local ``nodes`` of a space, whose displacements are ``dofs`` of the block."""
+        """Take the nodes of a space with these global numbers, the same on every rank.
+
+        Local node i has the displacements ``dofs[i]`` of the block.
+        """
         self._comm, self._block = comm, block
-        index_map = space.dofmap.index_map
-        mine = nodes[nodes < index_map.size_local]
+        lower, upper = space.dofmap.index_map.local_range
+        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
         self._mine = dofs[mine]
-        names = self._gathered(mine + index_map.local_range[0])
+        names = self._gathered(mine + lower)
         place = self._gathered(space.tabulate_dof_coordinates()[mine])
         # An order of places, which no number of ranks changes.
         self._order = np.lexsort(np.round(place, 6).T + 0.0)
@@ -95,10 +98,7 @@ class Surface:
         everything = body.comm.allgather((np.array(order, dtype=int), names))
         order, names = (np.concatenate([part[i] for part in everything]) for i in (0, 1))
         names = names[np.argsort(order)]
-        # A rank may own a node of a facet whose cell another one owns.
-        lower, upper = index_map.local_range
-        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
-        self.nodes = Nodes(body.comm, space, body.block, dofs.reshape(-1, 3), mine)
+        self.nodes = Nodes(body.comm, space, body.block, dofs.reshape(-1, 3), names)
         self.facets = self.nodes.index_of(names)
         self.area = node_areas(self.nodes.reference, self.facets)
 
@@ -128,10 +128,8 @@ class Bars:
         radii = np.repeat(radius[ribs.bars[chosen]], 3)
         names, radii = (np.concatenate(part) for part in zip(
             *ribs.comm.allgather((names, radii)), strict=True))
-        lower, upper = index_map.local_range
-        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
         six = np.arange(len(ribs.function.x.array)).reshape(-1, 6)
-        self.nodes = Nodes(ribs.comm, space, block, six[:, :3], mine)
+        self.nodes = Nodes(ribs.comm, space, block, six[:, :3], names)
         n = len(self.nodes.reference)
         self.length = float(lengths[~np.isnan(radius)].sum()) / n
         self.radius = np.zeros(n)

@@ -194,6 +194,7 @@ def test_an_adhesive_takes_its_stiffness_from_the_geometry_unless_given():
     ("", 'strength = "1 MPa"\ntoughness = "1 J/m^2"', "more than 0.01 N/mm"),
     ('rib = "none"', 'strength = "1 MPa"\ntoughness = "1 N/mm"', "must be left out where rib"),
     ("", 'strength = "1 N"', "adhesive.strength"),
+    ('glue_stiffness = "20 N/mm^3"', 'stiffness = "30 N/mm^3"', "both given: must be one of them"),
 ])
 def test_glue_that_cannot_be_is_refused(geometry, law, said):
     with pytest.raises(InputError, match=re.escape(said)):
