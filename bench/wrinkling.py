@@ -40,7 +40,6 @@ def main():
     parser.add_argument("--kpa", type=float, nargs="+", metavar="P",
                         default=[5, 8, 10, 10.5, 11, 11.5, 12, 12.5, 15, 20])
     parser.add_argument("--cells", type=int, default=18, metavar="N", help="chambers in a row")
-    parser.add_argument("--modes", type=int, default=3, metavar="N", help="drawn (at least 3)")
     parser.add_argument("--out", type=Path, default=Path("wrinkling"), metavar="DIR")
     arguments = parser.parse_args()
     wing, plain = (
@@ -50,7 +49,9 @@ def main():
     for kpa in arguments.kpa:
         pressure = kpa / 1000.0
         path = wing.actuate(upper=pressure)
-        found = modes(wing, arguments.modes)
+        if not path.converged:
+            break
+        found = modes(wing, 3)
         other = plain.actuate(upper=pressure)
         rows.append(row(path, found, other) | {"kPa": kpa})
         if (product := np.prod([mode.eigenvalue for mode in found])) < least:

@@ -54,6 +54,11 @@ def separation_energies(separation: Any, normal: Any, stiffness: Any, shear: Any
             0.5 * stiffness * (along - opening) ** 2)
 
 
+def used(energy: Any, onset: Any) -> Any:
+    """Return lambda. Rounding of the two parts of a separation may leave e below zero."""
+    return ufl.sqrt(ufl.conditional(ufl.gt(energy, 0.0), energy / onset, 0.0))
+
+
 def damage(kappa: Any, last: Any) -> Any:
     """Return d(kappa) for ``last`` = lambda_f: 0 up to 1, 1 from lambda_f on."""
     inside = last * (kappa - 1.0) / (kappa * (last - 1.0))

@@ -10,9 +10,14 @@ STANDARD_GRAVITY = 9.80665
 _PER_CUBIC_MM = 1e-9  # cubic metres
 
 
+def mass_density(density: float) -> float:
+    """Return the density in kg/mm^3 of one in kg/m^3."""
+    return density * _PER_CUBIC_MM
+
+
 def specific_weight(density: float) -> float:
     """Return the weight in N/mm^3 under standard gravity of a density in kg/m^3."""
-    return density * STANDARD_GRAVITY * _PER_CUBIC_MM
+    return mass_density(density) * STANDARD_GRAVITY
 
 
 def gravity_potential(weight: Any, u: Any) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ _LENGTHS = ("chord", "cavity_length", "wall_length", "top_thickness", "middle_th
             "side_thickness", "nose_length", "skin_thickness", "foot_height", "foot_width",
             "tail_bond_length")
 # How the skin may be built, defaults first.
-OPTIONS = {
+_OPTIONS = {
     "skin_root": ("clamped", "free"),
     "tip_wall": (False, True),
     "skin_over_spar": (False, True),
@@ -200,8 +200,13 @@ class WingGeometry:
         require(self.top_thickness < room, "top_thickness", self.top_thickness, "mm",
                 f"less than {room:.4g} mm, or the chambers are taller than the aerofoil")
 
+    def without_skin(self) -> WingGeometry:
+        """Return the same wing without a skin and what goes with it."""
+        defaults = {name: allowed[0] for name, allowed in _OPTIONS.items()}
+        return replace(self, skin_thickness=None, skin_prestretch=(1.0, 1.0), **defaults)
+
     def _check_options(self) -> None:
-        for name, allowed in OPTIONS.items():
+        for name, allowed in _OPTIONS.items():
             value, default = getattr(self, name), allowed[0]
             ok = type(value) is type(default) and value in allowed
             require(ok, name, value, "", " or ".join(map(repr, allowed)))

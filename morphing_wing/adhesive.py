@@ -15,6 +15,7 @@ from .forms.adhesive import (
     dissipated_energy,
     foot_displacement,
     separation_energies,
+    used,
 )
 from .forms.beam import rotation
 from .forms.mixed_point import mixed_point_correction
@@ -48,7 +49,7 @@ class GluedPatches:
     tangent_correction, iterate
         Bilinear form that makes the tangent robust, and the iterates that it needs.
     damage
-        Of glue that may fail: returns each point's damage, 0 to 1, the same on every rank.
+        Of glue that may fail: returns each point's damage, 0 to 1, on every rank. Collective.
     """
 
     def __init__(
@@ -79,19 +80,19 @@ class GluedPatches:
 
         s = separation(self.function)
         # Constants, so that another law compiles nothing.
-        stiffness = self._mesh.constant(law.stiffness)
+        stiffness = compat.constant(self._mesh.mesh, law.stiffness)
         if not law.fails:
             self.energy = self.stored = self._mesh.sum(0.5 * stiffness * area * ufl.inner(s, s))
             sound: Any = 1.0
         else:
-            shear, onset, last = map(self._mesh.constant,
-                                     (law.shear_stiffness, law.onset, law.last))
+            shear, onset, last = (compat.constant(self._mesh.mesh, value) for value in
+                                  (law.shear_stiffness, law.onset, law.last))
             turned = rotation(foot(self.function)[1]) * normal
             e, closing = separation_energies(s, turned, stiffness, shear)
             sound = 1.0 - damage(kappa, last)
             self.energy = self._mesh.sum(area * (adhesive_energy(e, kappa, onset, last) + closing))
             self.stored = self._mesh.sum(area * (sound * e + closing))
-            self._lambda = self._mesh.each(ufl.sqrt(e / onset))
+            self._lambda = self._mesh.each(used(e, onset))
             self.damage = self._mesh.each(damage(kappa, last))
             self._spent = compat.form(
                 self._mesh.sum(area * dissipated_energy(kappa, onset, last)))
@@ -132,7 +133,7 @@ class GluedPatches:
         self._give()
 
     def dissipated(self) -> float:
-        """Return the energy in N mm that the damage took."""
+        """Return the energy in N mm that the damage took. Collective."""
         return compat.assemble_scalar(self._comm, self._spent) if self.law.fails else 0.0
 
     def _give(self) -> None:

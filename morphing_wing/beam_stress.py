@@ -7,7 +7,7 @@ import ufl
 from mpi4py import MPI
 
 from . import compat
-from .forms.beam import QUADRATURE_DEGREE, beam_strains
+from .forms.beam import beam_strains
 from .frame import BeamFrame
 from .materials import Elastic
 
@@ -43,8 +43,8 @@ class BeamStress:
                    for i in range(3)]
         self._space = compat.discontinuous_space(mesh, 1, (4,))
         wanted = ufl.as_vector([stiffness[i] * strains[i] for i in (0, 3, 4, 5)])
-        dx = ufl.dx(domain=mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
-        self._projected = compat.form(ufl.inner(wanted, ufl.TestFunction(self._space)) * dx)
+        self._projected = compat.form(
+            ufl.inner(wanted, ufl.TestFunction(self._space)) * beams.measure)
 
     def resultants(self) -> np.ndarray:
         """Return N, T, M2, M3 (N, N mm) at both ends of each local bar, shape (n_local, 2, 4).

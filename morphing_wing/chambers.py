@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from dolfinx import fem
-
 from . import compat
 from .elastomer import Elastomer
 
@@ -30,7 +28,7 @@ class Chambers:
         self.potentials: list[Any] = []
         self._volumes = {}
         for name in (name for name in in_use if name in ROWS):
-            pressure = fem.Constant(body.mesh, compat.scalar_type(0.0))
+            pressure = compat.constant(body.mesh, 0.0)
             volume = body.chamber_volume(ROWS[name])
             self.potentials.append(-pressure * volume)
             self.pressures[name] = [pressure]

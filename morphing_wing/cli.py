@@ -111,7 +111,11 @@ def draw_modes(scene: Any, n: int, folder: pathlib.Path) -> None:
     """Write and print the modes about a scene's present state."""
     from morphing_wing.modes import modes
 
-    found = modes(scene, n)
+    try:
+        found = modes(scene, n)
+    except InputError as problem:  # the path is saved, and no input was bad
+        typer.echo(f"no modes: {problem}")
+        return
     found.save(folder)
     frequencies = ", ".join(mode.words() for mode in found)
     typer.echo(f"{len(found)} mode(s) about the last state: {frequencies}")

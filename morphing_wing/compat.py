@@ -74,6 +74,11 @@ def _cells_then_element() -> bool:
     return names.index("e") < names.index("x") if "e" in names else False
 
 
+def constant(mesh: Any, value: Any) -> Any:
+    """Return a number or an array of them that forms hold without being compiled for its value."""
+    return fem.Constant(mesh, np.asarray(value, dtype=scalar_type))
+
+
 def original_cells(mesh: Any) -> np.ndarray:
     """Return the index in the input array of each local cell (owned and ghosted)."""
     return np.asarray(mesh.topology.original_cell_index)

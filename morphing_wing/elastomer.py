@@ -114,7 +114,7 @@ class Elastomer:
         """Bilinear form that makes a displacement form's tangent robust; None for mixed forms."""
         if self.iterate is None:
             return None
-        bulk = [self._constant(self.material.bulk)]
+        bulk = [compat.constant(self.mesh, self.material.bulk)]
         total: Any = 0
         for kind, (_, dx_volumetric) in enumerate(self._measures()):
             correction = mixed_point_correction(
@@ -205,12 +205,9 @@ class Elastomer:
     def _volumetric_density(self, F: Any) -> Any:
         bulk = self.material.bulk
         if self.p is None:
-            return volumetric_energy(F, self._constant(bulk))
-        inverse_bulk = self._constant(0.0 if np.isinf(bulk) else 1.0 / bulk)
+            return volumetric_energy(F, compat.constant(self.mesh, bulk))
+        inverse_bulk = compat.constant(self.mesh, 0.0 if np.isinf(bulk) else 1.0 / bulk)
         return mixed_volumetric_energy(F, self.p, inverse_bulk)
-
-    def _constant(self, value: float) -> fem.Constant:
-        return fem.Constant(self.mesh, compat.scalar_type(value))
 
     @cached_property
     def _drawn(self) -> tuple[fem.Function, Any]:
@@ -223,7 +220,7 @@ class Elastomer:
         if face not in self._compiled_probes:
             area_vector = cofactor(deformation_gradient(self.u)) * self.normal
             integrands = [*(area_vector[i] for i in range(3)), *(self.u[i] for i in range(3))]
-            one = self._constant(1.0)
+            one = compat.constant(self.mesh, 1.0)
             self._compiled_probes[face] = [
                 compat.form(self.on_face(face, f)) for f in (*integrands, one)
             ]

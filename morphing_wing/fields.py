@@ -11,6 +11,7 @@ import pathlib
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
 
@@ -163,11 +164,11 @@ def scene_grids(scene: Any, state: State) -> dict[str, pyvista.UnstructuredGrid 
 
 def mode_grids(modes: Modes, i: int) -> dict[str, pyvista.UnstructuredGrid | None]:
     """Return the grids of the state of some modes, with mode ``i`` as point array. Collective."""
-    grids, moved = (scene_grids(modes.scene, state) for state in (modes.state, modes.moved(i)))
+    mode = replace(modes.state, fields=modes[i].fields)
+    grids, moved = (scene_grids(modes.scene, state) for state in (modes.state, mode))
     for name, grid in grids.items():
         if grid is not None:
-            before, after = (g.point_data["displacement"] for g in (grid, moved[name]))
-            grid.point_data["mode"] = after - before
+            grid.point_data["mode"] = moved[name].point_data["displacement"]
     return grids
 
 

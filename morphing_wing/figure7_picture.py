@@ -148,7 +148,8 @@ def _legend(table: pd.DataFrame, stopped: Mapping[tuple, str]) -> list[Line2D]:
         Line2D([], [], color="#333", linewidth=2.0, label="rotation of the end face"),
         Line2D([], [], color="#333", linewidth=0.9, label="deflection line: perhaps what was read"),
     ]
-    if "trailing_edge_deg" in table and "cables" in set(table["panel"]):
+    spaces = [panel.space for panel in PANELS.values() if panel.space in table]
+    if table[spaces].notna().any(axis=None):
         entries.append(Line2D([], [], color="#333", linewidth=0.9, linestyle=":",
                               label="trailing edge against the horizontal: or this"))
     if "contact" in table and table["contact"].any():

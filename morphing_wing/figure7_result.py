@@ -46,7 +46,7 @@ class Curve(NamedTuple):
         dx, dy, dz = geometry.cable_guide
         if self.direction == "up":
             geometry = replace(geometry, cable_guide=(dx, -dy, dz))
-        return geometry if self.skin else replace(geometry, skin_thickness=None)
+        return geometry if self.skin else geometry.without_skin()
 
     def loads(self, values: Sequence[float]) -> dict[str, Sequence[float]]:
         """Return the loads as `Wing.actuate` takes them."""

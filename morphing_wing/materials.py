@@ -35,7 +35,7 @@ class Yeoh:
     bulk
         Bulk modulus kappa in MPa; None: 1000 times the initial shear modulus.
     density
-        In kg/m^3, greater than 0; matters under gravity only. Dragon Skin 30's unless given.
+        In kg/m^3, greater than 0; matters to gravity and modes. Dragon Skin 30's unless given.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class Elastic:
     nu
         Poisson's ratio, between -1 and 0.5, both excluded.
     density
-        In kg/m^3, greater than 0; matters under gravity only. A printed resin's unless given.
+        In kg/m^3, greater than 0; matters to gravity and modes. A printed resin's unless given.
 
     Examples
     --------

@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 import pathlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from mpi4py import MPI
 from petsc4py import PETSc
+from slepc4py import SLEPc
 
 from .errors import InputError, is_count, require
 from .path import State
+from .renderer import or_warned
 from .root import on_root, write_whole
 
 if TYPE_CHECKING:
@@ -37,8 +39,8 @@ class Mode:
         Square of the circular frequency in 1/s^2; negative: the state is unstable, and the mode is
         the way in which it leaves.
     fields
-        Rank-local values of each kept function by name, a displacement's largest
-        component 1 mm.
+        Rank-local values of each kept function by name; of all components of displacements the
+        largest is 1 mm.
     """
 
     eigenvalue: float
@@ -93,23 +95,22 @@ class Modes(Sequence):
         """Write ``table.csv``, ``mode_1.png`` ... and the modes for ParaView. Collective.
 
         ``fields/modes.pvd`` has a time step a mode, with the state's ``displacement`` and the
-        vector ``mode`` (largest displacement 1).
+        vector ``mode`` (largest component 1).
         """
         from .fields import save_modes
 
         directory = pathlib.Path(directory)
-        on_root(self.scene.comm,
-                lambda: write_whole(directory / "table.csv", self.table().to_csv))
+        on_root(self.scene.comm, lambda: self._save_table(directory))
         save_modes(self, directory / "fields")
-        for i in range(len(self)):
-            self.render(directory / f"mode_{i + 1}.png", i)
+        with or_warned(self.scene.comm):
+            for i in range(len(self)):
+                self.render(directory / f"mode_{i + 1}.png", i)
         return directory
 
-    def moved(self, i: int) -> State:
-        """Return the state with mode ``i`` added to its fields: to draw, no equilibrium."""
-        fields = {name: array + self[i].fields[name]
-                  for name, array in self.state.fields.items()}
-        return replace(self.state, fields=fields)
+    def _save_table(self, directory: pathlib.Path) -> None:
+        for old in directory.glob("mode_*.png"):  # of an earlier run, which may have had more
+            old.unlink()
+        write_whole(directory / "table.csv", self.table().to_csv)
 
 
 def modes(scene: Scene, n: int = 3) -> Modes:
@@ -119,15 +120,16 @@ def modes(scene: Scene, n: int = 3) -> Modes:
 
     with the tangent :math:`K` of the loaded state and the lumped mass :math:`M` of elastomer and
     bars; air has none. By SLEPc, shifted to zero and inverted with one factor of K: the modes
-    nearest to zero. Of a half model those that are symmetric. SLEPc's options are open under the
-    scene's prefix and ``modes_``.
+    nearest to zero. Of a half model those that are symmetric. Where glue has just been damaged
+    further, each of its points softens or unloads, by its last bit. SLEPc's options are open under
+    the scene's prefix and ``modes_``.
 
     Parameters
     ----------
     scene
         Stands in a converged state, which it keeps.
     n
-        How many.
+        How many at most.
 
     Raises
     ------
@@ -136,11 +138,10 @@ def modes(scene: Scene, n: int = 3) -> Modes:
         tangent cannot be factorised.
     """
     require(is_count(n), "n", n, "", "a whole number of at least 1")
-    state = scene.present()
-    factor = scene.newton.linearise()
+    factor = scene.linearise()
     if factor.error < 0:
         raise InputError(f"{scene.name}: its tangent must be regular; MUMPS error {factor.error}")
-    return Modes(scene, state, _solved(scene, factor, n))
+    return Modes(scene, scene.present(), _solved(scene, factor, n))
 
 
 class _Inverse:
@@ -154,8 +155,6 @@ class _Inverse:
 
 
 def _solved(scene: Scene, factor: InertiaCholesky, n: int) -> list[Mode]:
-    from slepc4py import SLEPc  # not before PETSc has its options
-
     system = scene.system
     mass = np.where(system.free, np.concatenate(scene.masses()), 0.0)
     masses = _diagonal(system, mass)
@@ -174,7 +173,8 @@ def _solved(scene: Scene, factor: InertiaCholesky, n: int) -> list[Mode]:
     inner.getPC().setPythonContext(_Inverse(factor))
     solver.setFromOptions()
     solver.solve()
-    before = [block.function.x.array.copy() for block in system.blocks]
+    del transformation, inner  # destroyed with the solver, on all ranks at once
+    before = scene.unknowns()
     for block in system.blocks:
         block.function.x.array[:] = 0.0  # what is held stays at rest
     vector, found = system.x.duplicate(), []
@@ -185,9 +185,7 @@ def _solved(scene: Scene, factor: InertiaCholesky, n: int) -> list[Mode]:
         system.pull(vector)
         fields = {b.function.name: b.function.x.array.copy() for b in scene.kept_blocks}
         found.append(Mode(_PER_SECOND_SQUARED * value, fields))
-    for block, values in zip(system.blocks, before, strict=True):
-        block.function.x.array[:] = values
-    system.share()
+    scene.set_unknowns(before)
     for part in (vector, masses, solver):
         part.destroy()
     return sorted(found, key=lambda mode: abs(mode.eigenvalue))

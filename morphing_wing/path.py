@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, overload
@@ -18,6 +17,7 @@ import numpy as np
 import pandas as pd
 
 from morphing_wing.errors import InputError
+from morphing_wing.renderer import or_warned
 from morphing_wing.root import on_root, write_whole
 from morphing_wing.summary import summary
 
@@ -207,13 +207,10 @@ class Path(Sequence[State]):
         from morphing_wing import fields, pictures
 
         fields.save_path(self, directory / "fields")
-        try:
+        with or_warned(self.scene.comm):
             pictures.render(self.scene, self[-1], directory / "shape.png")
             if sum(bool(state.fields) for state in self) > 2:
                 pictures.render_strip(self, directory / "path.png")
-        except pictures.NoRenderer as missing:
-            if self.scene.comm.rank == 0:
-                warnings.warn(f"no 3D pictures: {missing}", stacklevel=2)
         return directory
 
     def _save_figures(self, directory: pathlib.Path) -> None:

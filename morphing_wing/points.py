@@ -71,21 +71,16 @@ class PointMesh:
         order = np.argsort(np.concatenate([points for points, _ in parts]))
         return np.concatenate([part for _, part in parts])[order]
 
-    def constant(self, value: float) -> fem.Constant:
-        """Return a number that forms may hold without being compiled anew for another value."""
-        return fem.Constant(self.mesh, compat.scalar_type(value))
-
     def each(self, integrand: Any) -> Callable[[], np.ndarray]:
         """Return what evaluates an integrand at all points, in order. Collective, as that is."""
         space = compat.discontinuous_space(self.mesh, 0)
         function = fem.Function(space)
-        cells = np.array([space.dofmap.cell_dofs(c)[0] for c in range(len(self.mine))], dtype=int)
         form = compat.form(self.sum(integrand * ufl.TestFunction(space)))
 
         def values() -> np.ndarray:
             function.x.array[:] = 0.0
             compat.assemble_vector(form, function.x.array)
-            return self.gathered(function.x.array[cells])
+            return self.gathered(function.x.array[self._cells])
 
         return values
 

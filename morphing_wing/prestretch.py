@@ -32,9 +32,9 @@ class Prestretch:
     """
 
     def __init__(self, mesh: Any, cells: np.ndarray, stretches: tuple[float, float]) -> None:
-        self.part = fem.Constant(mesh, compat.scalar_type(0.0))
+        self.part = compat.constant(mesh, 0.0)
         inside = fem.Function(compat.discontinuous_space(mesh, 0))
         for cell in cells:
             inside.x.array[inside.function_space.dofmap.cell_dofs(cell)] = 1.0
-        surplus = (fem.Constant(mesh, compat.scalar_type(s - 1.0)) for s in stretches)
+        surplus = (compat.constant(mesh, s - 1.0) for s in stretches)
         self.gradient = prestretch_gradient(*(1.0 + self.part * inside * s for s in surplus))

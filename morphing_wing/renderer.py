@@ -5,9 +5,16 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-__all__ = ["NoRenderer", "choose_renderer"]
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+__all__ = ["NoRenderer", "choose_renderer", "or_warned"]
 
 # VTK crashes the whole process where a library of OpenGL is missing or has no driver, so a child
 # process tries first: hours of solving must not end in a crash at the first picture.
@@ -32,6 +39,16 @@ _VARIABLE = "VTK_DEFAULT_OPENGL_WINDOW"
 
 class NoRenderer(RuntimeError):
     """Nothing here draws in 3D; the message says what to install."""
+
+
+@contextmanager
+def or_warned(comm: MPI.Comm) -> Iterator[None]:
+    """Where this machine cannot draw in 3D, warn of it on rank 0 and go on."""
+    try:
+        yield
+    except NoRenderer as missing:
+        if comm.rank == 0:
+            warnings.warn(f"no 3D pictures: {missing}", stacklevel=4)
 
 
 @lru_cache(maxsize=1)

@@ -19,10 +19,10 @@ from .drawing import Drawing, bar_radii, default_drawing
 from .errors import require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
+from .forms.gravity import mass_density
 from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
-from .mass import bars_mass
 from .materials import RESIN, Elastic
 from .newton import Newton
 from .path import Path, State
@@ -74,7 +74,7 @@ class Rib(Scene):
         self.primary_load = "torque_Nmm"
         self.beams = BeamFrame(self.comm, geometry.frame(), material)
         self._tail = np.array([geometry.length, 0.0, 0.0])
-        self._guide = fem.Constant(self.beams.mesh, self._tail + [0.0, -100.0, 0.0])
+        self._guide = compat.constant(self.beams.mesh, self._tail + [0.0, -100.0, 0.0])
         clamped = self.beams.end_dofs("root", 0)
         self.system = EquilibriumSystem(self.comm, [Block(self.beams.function, clamped)])
         self._options_prefix = options_prefix
@@ -168,7 +168,7 @@ class Rib(Scene):
         energies = [self.beams.energy]
         self.loads, self._shortenings = {}, {}
         for name in in_use:
-            load = fem.Constant(mesh, compat.scalar_type(0.0))
+            load = compat.constant(mesh, 0.0)
             energies.append(self.beams.at_ends("tail", potentials[name](load)))
             unit = potentials[name](1.0)
             self._shortenings[name] = compat.form(self.beams.at_ends("tail", -unit))
@@ -180,7 +180,7 @@ class Rib(Scene):
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown."""
-        return [bars_mass(self.beams)]
+        return [mass_density(self.material.density) * self.beams.lumped_volume()]
 
     def _conjugates(self) -> dict[str, float]:
         return {name: compat.assemble_scalar(self.comm, form)

@@ -19,6 +19,7 @@ from . import restart as restart_files
 from .blocks import Block
 from .contact import Contact
 from .errors import InputError
+from .inertia import InertiaCholesky
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
 from .path import Path, State
@@ -143,8 +144,7 @@ class Scene(ABC):
 
     def solve(self) -> NewtonResult:
         """Find the equilibrium of the present loads from the present state."""
-        if self.contact is not None and self.contact.prepare(self.system):
-            self.newton.renew()
+        self._take_up_contact()
         self._largest_force = max(self._largest_force, self._load_force())
         result = self.newton.solve(self._largest_force)
         iterations, rounds = result.iterations, 1
@@ -206,9 +206,7 @@ class Scene(ABC):
         )
 
     def present(self) -> State:
-        """Return the state in which the scene stands, measured anew."""
-        if self._in_use is None:
-            raise InputError(f"{self.name}: must have been led to a load first")
+        """Return the state in which the scene stands, converged before."""
         as_it_is = NewtonResult(True, "converged", 0, 0.0, self.newton.factor.surplus)
         return self.state(self._load, as_it_is, 0.0, requested=True)
 
@@ -218,7 +216,14 @@ class Scene(ABC):
             block.function.x.array[:] = state.fields[block.function.name]
         self.system.share()
 
-    # -- for sensitivities --------------------------------------------------------------------
+    # -- for sensitivities and modes ----------------------------------------------------------
+
+    def linearise(self) -> InertiaCholesky:
+        """Return the factor of the tangent where the scene stands, converged before."""
+        if self._in_use is None:
+            raise InputError(f"{self.name}: must have been led to a load first")
+        self._take_up_contact()  # a step that failed since has left other pairs
+        return self.newton.linearise()
 
     def take_into_use(self, loads: Sequence[str]) -> None:
         """Bring more loads into use, beside those that are."""
@@ -282,6 +287,10 @@ class Scene(ABC):
         """Return, of each load in use, the displacement on which it does work."""
 
     # -- internals ----------------------------------------------------------------------------
+
+    def _take_up_contact(self) -> None:
+        if self.contact is not None and self.contact.prepare(self.system):
+            self.newton.renew()
 
     def _stand_at(self, earlier: restart_files.Restart) -> None:
         self.show(earlier.states[-1])

@@ -47,7 +47,7 @@ def sensitivities(scene: Scene, loads: Sequence[str]) -> dict[str, dict[str, flo
     if unused:
         scene.take_into_use(unused)
     system = scene.system
-    factor = scene.newton.linearise()
+    factor = scene.linearise()
     x, rate, force = (system.x.duplicate() for _ in range(3))
     system.push(x)
     found = {}

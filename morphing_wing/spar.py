@@ -16,9 +16,9 @@ from .chamber_contact import in_chambers
 from .chambers import Chambers
 from .elastomer import Elastomer
 from .elements import element as element_named
+from .forms.gravity import mass_density
 from .geometry.spar import SparGeometry, SparMeshing
 from .iterate import Iterate
-from .mass import body_mass
 from .materials import DRAGON_SKIN_30, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -178,7 +178,7 @@ class Spar(Scene):
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown."""
-        return [body_mass(self.body)]
+        return [mass_density(self.material.density) * self.body.lumped_volume()]
 
     def _conjugates(self) -> dict[str, float]:
         return self._chambers.volumes()

@@ -33,9 +33,9 @@ class Nodes:
         """
         self._comm, self._block = comm, block
         lower, upper = space.dofmap.index_map.local_range
-        mine = np.unique(names[(names >= lower) & (names < upper)]) - lower
+        names = np.unique(names)
+        mine = names[(names >= lower) & (names < upper)] - lower
         self._mine = dofs[mine]
-        names = self._gathered(mine + lower)
         place = self._gathered(space.tabulate_dof_coordinates()[mine])
         # An order of places, which no number of ranks changes.
         self._order = np.lexsort(np.round(place, 6).T + 0.0)

@@ -9,17 +9,12 @@ import numpy as np
 if TYPE_CHECKING:
     import pyvista
 
-__all__ = ["magnitude", "tubes"]
-
-
-def magnitude(grid: pyvista.DataSet) -> np.ndarray:
-    """Return the length of the grid's ``mode``, or of its ``displacement`` in mm if it has none."""
-    data = grid.point_data
-    return np.linalg.norm(data["mode" if "mode" in data else "displacement"], axis=1)
+__all__ = ["tubes"]
 
 
 def tubes(
-    grid: pyvista.UnstructuredGrid, radius: float | np.ndarray, deformed: bool, pieces: int = 6
+    grid: pyvista.UnstructuredGrid, radius: float | np.ndarray, deformed: bool,
+    shown: str = "displacement", pieces: int = 6,
 ) -> pyvista.PolyData:
     """Return bars of round section around the cells of a grid of intervals.
 
@@ -31,12 +26,14 @@ def tubes(
         In mm; one number, or one for each cell by its original number.
     deformed
         Whether to draw the deformed axes.
+    shown
+        Vector at the points whose length is ``magnitude``.
     pieces
         Straight pieces in which a second-order axis is drawn.
 
     Returns
     -------
-    pyvista.PolyData with point array ``magnitude``, see there. Bars end
+    pyvista.PolyData with point array ``magnitude``, the length of a vector. Bars end
     in spheres, so that they join at any angle.
     """
     import pyvista
@@ -44,7 +41,7 @@ def tubes(
     cells = grid.cells.reshape(grid.n_cells, -1)[:, 1:]
     displacement = np.asarray(grid.point_data["displacement"])
     points = grid.points + displacement * deformed
-    lengths = magnitude(grid)
+    lengths = np.linalg.norm(grid.point_data[shown], axis=1)
     shapes = _shapes(cells.shape[1], pieces)
     axes = np.einsum("ta,cai->cti", shapes, points[cells])
     along = np.einsum("ta,ca->ct", shapes, lengths[cells])

@@ -10,7 +10,7 @@ import numpy as np
 from morphing_wing.drawing import Cut, Drawing
 from morphing_wing.mirror import mirrored
 from morphing_wing.renderer import choose_renderer
-from morphing_wing.tubes import magnitude, tubes
+from morphing_wing.tubes import tubes
 
 if TYPE_CHECKING:
     import pyvista
@@ -48,11 +48,18 @@ class View:
         chosen = self.drawing.colour_by
         return chosen if self.solids or chosen != "stretch" else "displacement"
 
+    @property
+    def _vector(self) -> str:
+        """The vector whose length the colours show where they do not show stretch."""
+        return "mode" if self.drawing.colour_by == "mode" else "displacement"
+
     def values(self) -> np.ndarray:
         """Return what the colours show, at the points of the solids (of the lines without any)."""
         if self.quantity == "stretch":
             return np.concatenate([grid.point_data["stretch"] for grid in self.solids])
-        return np.concatenate([magnitude(grid) for grid in self.solids or self.lines.values()])
+        return np.concatenate([
+            np.linalg.norm(grid.point_data[self._vector], axis=1)
+            for grid in self.solids or self.lines.values()])
 
     def cuts(self) -> list[Cut]:
         """Return the cuts to be drawn beside the whole."""
@@ -150,6 +157,7 @@ class View:
         cut: Cut | None,
     ) -> None:
         surface = _surface(_without(grid, cut), deformed=True, subdivision=0 if cut else 2)
+        surface.point_data["magnitude"] = np.linalg.norm(surface.point_data[self._vector], axis=1)
         look = {"split_sharp_edges": True, "feature_angle": 30.0}
         if self.lines and cut is None:
             # Ribs show through the skin; of the chambers only the edges.
@@ -180,7 +188,7 @@ class View:
                 thin = 0.15 * np.min(radius)
                 plotter.add_mesh(tubes(grid, thin, deformed=False), color="#aab3bd")
         if grid.n_cells:
-            plotter.add_mesh(tubes(grid, radius, deformed=True), **look)
+            plotter.add_mesh(tubes(grid, radius, deformed=True, shown=self._vector), **look)
 
 
 def _dimension(grid: pyvista.UnstructuredGrid) -> int:
@@ -211,7 +219,6 @@ def _surface(
 ) -> pyvista.PolyData:
     grid = grid.copy()
     displacement = grid.point_data["displacement"]
-    grid.point_data["magnitude"] = magnitude(grid)
     if deformed:
         grid.points = grid.points + displacement
     return grid.extract_surface(nonlinear_subdivision=subdivision, algorithm="dataset_surface")

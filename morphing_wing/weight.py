@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import ufl
-from dolfinx import fem
-
 from . import compat
 from .elastomer import Elastomer
-from .forms.beam import QUADRATURE_DEGREE, displacement
+from .forms.beam import displacement
 from .forms.gravity import gravity_potential, specific_weight
 from .frame import BeamFrame
 
@@ -29,23 +24,18 @@ class Weight:
 
     def __init__(self, body: Elastomer, ribs: BeamFrame | None) -> None:
         self._comm = body.comm
-        weight = _constant(body.mesh, specific_weight(body.material.density))
+        weight = compat.constant(body.mesh, specific_weight(body.material.density))
         rises = [gravity_potential(weight, body.u) * body.volume_measure()]
         meshes = [body.mesh]
         if ribs is not None:
-            weight = _constant(ribs.mesh, specific_weight(ribs.material.density))
+            weight = compat.constant(ribs.mesh, specific_weight(ribs.material.density))
             line = weight * ribs.cellwise(ribs.frame.areas())
-            dx = ufl.dx(domain=ribs.mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
-            rises.append(gravity_potential(line, displacement(ribs.function)) * dx)
+            rises.append(gravity_potential(line, displacement(ribs.function)) * ribs.measure)
             meshes.append(ribs.mesh)
-        self.multiples = [_constant(mesh, 0.0) for mesh in meshes]
+        self.multiples = [compat.constant(mesh, 0.0) for mesh in meshes]
         self.potentials = [n * rise for n, rise in zip(self.multiples, rises, strict=True)]
         self._rises = [compat.form(rise) for rise in rises]
 
     def fall(self) -> float:
         """Return what a multiple of standard gravity does work on, -sum of rho g u_y, in N mm."""
         return -sum(compat.assemble_scalar(self._comm, rise) for rise in self._rises)
-
-
-def _constant(mesh: Any, value: float) -> fem.Constant:
-    return fem.Constant(mesh, compat.scalar_type(value))

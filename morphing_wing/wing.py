@@ -20,6 +20,7 @@ from .elements import element as element_named
 from .errors import is_count, is_number, require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
+from .forms.gravity import mass_density
 from .frame import BeamFrame
 from .geometry.frame import join
 from .geometry.wing import WingGeometry
@@ -27,7 +28,6 @@ from .geometry.wing_mesh import WingMeshing, wing_mesh
 from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
-from .mass import bars_mass, body_mass
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -323,11 +323,9 @@ class Wing(Scene):
         self.loads = dict(self._chambers.pressures)
         energies = [part.energy for part in self._parts()] + self._chambers.potentials
         if "cable_N" in in_use:
-            tension = fem.Constant(self.ribs.mesh, compat.scalar_type(0.0))
+            tension = compat.constant(self.ribs.mesh, 0.0)
             self.loads["cable_N"] = [tension]
-            guide = fem.Constant(
-                self.ribs.mesh, np.array(self.geometry.cable_guide, dtype=compat.scalar_type)
-            )
+            guide = compat.constant(self.ribs.mesh, self.geometry.cable_guide)
             reach = cable_potential(1.0, displacement(self.ribs.function), guide)
             self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
             energies.append(self.ribs.at_ends("tail", tension * reach))
@@ -349,7 +347,8 @@ class Wing(Scene):
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown, of the elastomer and the ribs."""
-        return [body_mass(self.body)] + ([bars_mass(self.ribs)] if self.ribs is not None else [])
+        parts = [part for part in (self.body, self.ribs) if part is not None]
+        return [mass_density(part.material.density) * part.lumped_volume() for part in parts]
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()

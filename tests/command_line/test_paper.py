@@ -49,7 +49,8 @@ def asked(monkeypatch, tmp_path):
         return study
 
     def reach(pressures, tensions, fidelity, geometry, begin, contact):
-        found.maps.append((len(pressures), len(tensions), geometry.skin_thickness))
+        found.maps.append((len(pressures), len(tensions), geometry.skin_thickness,
+                           geometry.skin_root))
         return map_module.Reach(path("pressure", pressures, True))
 
     monkeypatch.setattr(module, "figure7", figure7)
@@ -90,8 +91,9 @@ def test_a_curve_that_stopped_is_status_3_and_what_was_reached_is_written(asked,
 
 
 def test_the_map_is_run_where_it_is_asked_for(asked, tmp_path):
-    assert main(["paper", "fig7", "--map", "--map-points", "3x2", "--out", "here"]) == 0
-    assert asked.maps == [(3, 2, 1.0), (3, 2, None)]
+    assert main(["paper", "fig7", "--map", "--map-points", "3x2", "--skin-root", "free",
+                 "--out", "here"]) == 0
+    assert asked.maps == [(3, 2, 1.0, "free"), (3, 2, None, "clamped")]
     assert (tmp_path / "here" / "map_with_skin_down_draft" / "map.png").exists()
 
 
@@ -105,7 +107,7 @@ def test_what_is_to_come_says_so(name, asked, capfd):
     (["fig7", "--fidelity", "best"], "--fidelity = 'best': must be one of draft, standard"),
     (["fig7", "--points", "0"], "--points = 0: must be at least 1"),
     (["fig7", "--points", "many"], "Invalid value for '--points'"),
-    (["fig7", "--skin-root", "glued"], "--skin-root = 'glued': must be clamped or free"),
+    (["fig7", "--skin-root", "glued"], "skin_root = 'glued': must be 'clamped' or 'free'"),
     (["fig7", "--skin", "thick"], "--skin = 'thick': must be on, off or both"),
     (["fig7", "--map", "--map-points", "1x4"], "--map-points = '1x4': must be two numbers"),
     (["fig7", "--map", "--map-points", "four"], "--map-points = 'four': must be two numbers"),

@@ -2,9 +2,14 @@
 
 import numpy as np
 import pytest
+import ufl
+from mpi4py import MPI
 
+from morphing_wing import compat
+from morphing_wing.forms.adhesive import separation_energies, used
 from morphing_wing.geometry.hexmesh import swept_blocks, uniform
 from morphing_wing.materials import Adhesive, Yeoh
+from morphing_wing.points import PointMesh
 from tests.verification.moved import Moved, glued
 
 SIDE, HEIGHT = 2.0, 1.0
@@ -135,3 +140,31 @@ def test_glues_residual_is_its_potentials_derivative_and_tangent_the_residuals(b
         assert max(residual_errors) < 1e-10 * residual.norm()
     else:
         assert orders[1] == pytest.approx(2.0, abs=0.15)
+
+
+def test_glue_that_is_pressed_is_not_used_whichever_way_its_face_looks():
+    normals = np.random.default_rng(0).normal(size=(500, 3))
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    mesh = PointMesh(MPI.COMM_SELF, len(normals), 1, 6, "pressed")
+    mesh.set_data(np.concatenate([-0.01 * normals, normals], axis=1)[mesh.mine])
+    s, normal = (ufl.as_vector([mesh.data[3 * k + i] for i in range(3)]) for k in range(2))
+    stiffness, shear = compat.constant(mesh.mesh, 50.0), compat.constant(mesh.mesh, 50.0)
+    e, _ = separation_energies(s, normal, stiffness, shear)
+    use = mesh.each(used(e, compat.constant(mesh.mesh, 1e-3)))()
+    assert (np.abs(use) < 1e-6).all()  # what is not a number is not small
+
+
+def test_another_law_compiles_nothing(monkeypatch):
+    signatures, form = [], compat.form
+
+    def noted(expression):
+        signatures.append(expression.signature())
+        return form(expression)
+
+    monkeypatch.setattr(compat, "form", noted)
+    found = []
+    for law in (LAW, Adhesive(stiffness=5.0, strength=0.03, toughness=1e-3, shear_strength=0.02)):
+        signatures.clear()
+        block(law=law).solve()
+        found.append(list(signatures))
+    assert found[0] == found[1]
