@@ -37,6 +37,7 @@ def figure7(
     skins: Sequence[bool] = (True, False),
     directions: Sequence[str] = ("down",),
     geometry: WingGeometry | None = None,
+    panels: Sequence[str] = tuple(PANELS),
     comm: MPI.Comm | None = None,
     begin: Callable[[Curve, Wing], Progress] | None = None,
     done: Callable[[Figure7, Curve, Path], None] | None = None,
@@ -57,6 +58,8 @@ def figure7(
         cables guided to the other side, (dx, -dy, dz).
     geometry
         The paper's prototype by default.
+    panels
+        "pressure", "cables" or both.
     comm
         Communicator; all ranks of MPI by default.
     begin
@@ -78,7 +81,7 @@ def figure7(
         raise InputError("skin_thickness = None: must be a length for curves with skin")
     study = Figure7(comm or MPI.COMM_WORLD)
     loads = {"pressure": tuple(pressures), "cables": tuple(tensions)}
-    for curve in _curves(fidelities, skins, directions):
+    for curve in _curves(fidelities, skins, panels, directions):
         path = _run(curve, loads[curve.panel], geometry, study.comm, begin, wing)
         study.paths[curve] = without_fields(path)
         if done is not None:
@@ -89,11 +92,12 @@ def figure7(
 
 
 def _curves(
-    fidelities: Sequence[str], skins: Sequence[bool], directions: Sequence[str]
+    fidelities: Sequence[str], skins: Sequence[bool], panels: Sequence[str],
+    directions: Sequence[str],
 ) -> Iterator[Curve]:
     for fidelity in dict.fromkeys(fidelities):
         for skin in dict.fromkeys(map(bool, skins)):
-            for panel in PANELS:
+            for panel in panels:
                 for direction in dict.fromkeys(directions):
                     yield Curve(panel, skin, direction, fidelity)
 

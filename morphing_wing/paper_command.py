@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["paper"]
 
 COMING = ("table2", "table3", "fig5", "fig6")
+PANELS = {"pressure": ("pressure",), "cables": ("cables",), "both": ("pressure", "cables")}
 SKINS = {"on": (True,), "off": (False,), "both": (True, False)}
 
 
@@ -36,6 +37,9 @@ def paper(
         typer.Option(metavar="F", help="draft or standard; once each for several. [draft]"),
     ] = None,
     points: Annotated[int, typer.Option(metavar="N", help="Points a curve beside zero.")] = 8,
+    panel: Annotated[
+        str, typer.Option(metavar="P", help="pressure, cables or both: which half of the figure.")
+    ] = "both",
     both_directions: Annotated[
         bool, typer.Option("--both-directions/--one-direction", help="Up as well, or only down.")
     ] = False,
@@ -65,7 +69,7 @@ def paper(
     folder = pathlib.Path("output") / "fig7" if out is None else out
     fidelities = tuple(dict.fromkeys(fidelity or ["draft"]))
     comm = MPI.COMM_WORLD
-    check(name, fidelities, points, skin)
+    check(name, fidelities, points, skin, panel)
     geometry = WingGeometry.prototype(skin_root=skin_root)
     grid = grid_of(map_points) if reachable else None
     on_root(comm, lambda: check_folder(folder))
@@ -74,7 +78,7 @@ def paper(
 
     study = figure7(
         fidelities, *loads(points + 1, points + 1),
-        SKINS[skin], ("down", "up") if both_directions else ("down",), geometry,
+        SKINS[skin], ("down", "up") if both_directions else ("down",), geometry, PANELS[panel],
         comm=comm, begin=announced, done=lambda *found: saved(folder, *found), contact=contact,
     )
     say(study)
@@ -83,7 +87,9 @@ def paper(
     return DONE if study.converged and reached else STOPPED
 
 
-def check(name: str, fidelities: tuple[str, ...], points: int, skin: str) -> None:
+def check(
+    name: str, fidelities: tuple[str, ...], points: int, skin: str, panel: str
+) -> None:
     """Refuse what cannot be computed, before DOLFINx is loaded."""
     if name in COMING:
         raise InputError(f"{name}: is not there yet, must be fig7")
@@ -93,6 +99,7 @@ def check(name: str, fidelities: tuple[str, ...], points: int, skin: str) -> Non
                 f"one of {', '.join(FIDELITIES['wing'])}")
     require(points >= 1, "--points", points, "", "at least 1")
     require(skin in SKINS, "--skin", skin, "", "on, off or both")
+    require(panel in PANELS, "--panel", panel, "", "pressure, cables or both")
 
 
 def grid_of(text: str) -> tuple[int, int]:

@@ -35,12 +35,13 @@ def asked(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     found = SimpleNamespace(calls=[], cables_converge=True, maps=[])
 
-    def figure7(fidelities, pressures, tensions, skins, directions, geometry, comm, begin, done,
-                contact):
+    def figure7(fidelities, pressures, tensions, skins, directions, geometry, panels, comm, begin,
+                done, contact):
         found.calls.append((fidelities, list(pressures), list(tensions), skins, directions))
-        found.contact, found.skin_root = contact, geometry.skin_root
+        found.contact, found.skin_root, found.panels = contact, geometry.skin_root, panels
         study = Figure7(comm)
-        for panel, loads in (("pressure", pressures), ("cables", tensions)):
+        for panel in panels:
+            loads = {"pressure": pressures, "cables": tensions}[panel]
             ok = panel == "pressure" or found.cables_converge
             curve = Curve(panel, skins[0], directions[0], fidelities[-1])
             begin(curve, SimpleNamespace(dofs=7, comm=comm)).end(ok, "")
@@ -64,6 +65,7 @@ def test_by_default_draft_eight_points_with_skin_and_without_downwards(asked, tm
     ((fidelities, pressures, tensions, skins, directions),) = asked.calls
     assert (fidelities, skins, directions) == (("draft",), (True, False), ("down",))
     assert (asked.contact, asked.skin_root) == (True, "clamped")
+    assert asked.panels == ("pressure", "cables")
     assert pressures[::8] == pytest.approx([0.0, 0.04]) and len(pressures) == 9
     assert tensions[::8] == pytest.approx([0.0, 0.5]) and len(tensions) == 9
     folder = tmp_path / "output" / "fig7"
@@ -76,8 +78,8 @@ def test_by_default_draft_eight_points_with_skin_and_without_downwards(asked, tm
 def test_options_choose_what_is_run(asked):
     assert main(["paper", "fig7", "--fidelity", "draft", "--fidelity", "standard", "--skin", "off",
                  "--points", "2", "--both-directions", "--skin-root", "free", "--no-contact",
-                 "--out", "here"]) == 0
-    assert (asked.contact, asked.skin_root) == (False, "free")
+                 "--panel", "cables", "--out", "here"]) == 0
+    assert (asked.contact, asked.skin_root, asked.panels) == (False, "free", ("cables",))
     assert asked.calls == [(("draft", "standard"), [0.0, 0.02, 0.04], [0.0, 0.25, 0.5], (False,),
                             ("down", "up"))]
 
@@ -108,6 +110,7 @@ def test_what_is_to_come_says_so(name, asked, capfd):
     (["fig7", "--points", "0"], "--points = 0: must be at least 1"),
     (["fig7", "--points", "many"], "Invalid value for '--points'"),
     (["fig7", "--skin-root", "glued"], "skin_root = 'glued': must be 'clamped' or 'free'"),
+    (["fig7", "--panel", "B-2"], "--panel = 'B-2': must be pressure, cables or both"),
     (["fig7", "--skin", "thick"], "--skin = 'thick': must be on, off or both"),
     (["fig7", "--map", "--map-points", "1x4"], "--map-points = '1x4': must be two numbers"),
     (["fig7", "--map", "--map-points", "four"], "--map-points = 'four': must be two numbers"),
