@@ -24,7 +24,7 @@ from morphing_wing import Wing
 from morphing_wing.geometry import RibGeometry, WingGeometry
 from morphing_wing.materials import DRAGON_SKIN_30, Yeoh
 
-PRESSURES, TENSIONS = (0.010, 0.020, 0.035), (0.1, 0.2)  # MPa; N in each cable
+PRESSURES, TENSIONS = (0.010, 0.020, 0.030, 0.035), (0.05, 0.1, 0.2)  # MPa; N in each cable
 SQUARE = {"section": "square", "bosses": True}
 C10, C20 = DRAGON_SKIN_30.coefficients
 GEOMETRY = {
@@ -62,10 +62,10 @@ CASES = {name: (changes, {}) for name, changes in GEOMETRY.items()} | {
 # Column -> load, which of its points, measure.
 MEASURED = {
     "phi_1, 20 kPa": ("upper", 1, "span_angle_deg"),
-    "phi_1, 35 kPa": ("upper", 2, "span_angle_deg"),
-    "phi_2": ("cable", 1, "chord_angle_deg"),
-    "in space": ("cable", 1, "trailing_edge_deg"),
-    "middle rib": ("cable", 1, "rib_2_rotation_deg"),
+    "phi_1, 35 kPa": ("upper", 3, "span_angle_deg"),
+    "phi_2": ("cable", 2, "chord_angle_deg"),
+    "in space": ("cable", 2, "trailing_edge_deg"),
+    "middle rib": ("cable", 2, "rib_2_rotation_deg"),
 }
 CHANGES = ("phi_1, 20 kPa", "phi_1, 35 kPa", "middle rib")
 

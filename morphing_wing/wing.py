@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
-from . import compat
 from .blocks import Block
+from .cables import Cables
 from .chambers import ROWS, Chambers
-from .drawing import Cut, Drawing, bar_radii, default_drawing
+from .drawing import Drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
 from .errors import is_count, is_number, require
-from .forms.beam import displacement
-from .forms.cable import cable_potential
 from .forms.gravity import mass_density
 from .frame import BeamFrame
 from .geometry.frame import join
@@ -39,6 +37,7 @@ from .tension import check_tension
 from .trim import Trim, trim
 from .weight import Weight
 from .wing_angles import wing_angles
+from .wing_drawing import wing_drawing
 
 
 @dataclass(frozen=True)
@@ -252,17 +251,7 @@ class Wing(Scene):
 
     def drawing(self, state: State) -> Drawing:
         """Return how to draw the present state: cuts, bars as tubes, cables as lines."""
-        wing, cuts, cables, radius = self.geometry, [Cut("x", 0.25 * self.geometry.chord)], [], {}
-        if self.ribs is not None:
-            frame = self.ribs.frame
-            radius = {"ribs": bar_radii(frame)}
-            middle = frame.points[frame.roots[len(frame.roots) // 2], 2]
-            cuts.append(Cut("z", middle + 0.5 * wing.cavity_length + 3.0))
-            for i, tail in enumerate(frame.tails if state.load.get("cable_N") else ()):
-                start = frame.points[tail] + self.ribs.end_values("tail", i)[:3]
-                way = frame.points[tail] + np.array(wing.cable_guide) - start
-                cables.append(np.array([start, start + 40.0 * way / np.linalg.norm(way)]))
-        return replace(default_drawing(self), cuts=cuts, radius=radius, cables=cables)
+        return wing_drawing(self, state)
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
@@ -323,12 +312,9 @@ class Wing(Scene):
         self.loads = dict(self._chambers.pressures)
         energies = [part.energy for part in self._parts()] + self._chambers.potentials
         if "cable_N" in in_use:
-            tension = compat.constant(self.ribs.mesh, 0.0)
-            self.loads["cable_N"] = [tension]
-            guide = compat.constant(self.ribs.mesh, self.geometry.cable_guide)
-            reach = cable_potential(1.0, displacement(self.ribs.function), guide)
-            self._cable_length = compat.form(self.ribs.at_ends("tail", reach))
-            energies.append(self.ribs.at_ends("tail", tension * reach))
+            self._cables = Cables(self.ribs, self.geometry.cable_guide)
+            self.loads["cable_N"] = [self._cables.tension]
+            energies.append(self._cables.potential)
         if "prestretch_part" in in_use:
             self.loads["prestretch_part"] = [self.body.prestretch.part]
         if "gravity_g" in in_use:
@@ -353,7 +339,7 @@ class Wing(Scene):
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()
         if "cable_N" in self.loads:
-            found["cable_N"] = -compat.assemble_scalar(self.comm, self._cable_length)
+            found["cable_N"] = self._cables.shortening()
         if "gravity_g" in self.loads:
             found["gravity_g"] = self._weight.fall()
         return found

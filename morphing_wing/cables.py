@@ -1,0 +1,43 @@
+"""The cables at the ribs' tails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from . import compat
+from .forms.beam import displacement
+from .forms.cable import cable_potential
+from .frame import BeamFrame
+
+__all__ = ["Cables"]
+
+
+class Cables:
+    """A cable from the tail of each rib to a fixed guide point, all under one constant tension.
+
+    Parameters
+    ----------
+    ribs
+        The frame.
+    guide
+        The guide points, each seen from its undeformed tail, mm.
+
+    Attributes
+    ----------
+    tension
+        The constant in N that carries the load.
+    potential
+        UFL functional in N mm.
+    """
+
+    def __init__(self, ribs: BeamFrame, guide: Sequence[float]) -> None:
+        self._comm = ribs.comm
+        self.tension = compat.constant(ribs.mesh, 0.0)
+        place = compat.constant(ribs.mesh, guide)
+        length = cable_potential(1.0, displacement(ribs.function), place)
+        self.potential = ribs.at_ends("tail", self.tension * length)
+        self._length = compat.form(ribs.at_ends("tail", length))
+
+    def shortening(self) -> float:
+        """Return minus the length of all cables in mm: what the tension does work on."""
+        return -compat.assemble_scalar(self._comm, self._length)
