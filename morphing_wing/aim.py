@@ -69,6 +69,12 @@ class Aim:
         """The norm in degrees of those errors that no limit of their own load excuses."""
         return float(np.linalg.norm(self._open(self.errors, self.numbers)))
 
+    @property
+    def slack(self) -> np.ndarray:
+        """Which loads that only pull one way do not pull at all, and leave an error, as a mask."""
+        one_way = np.array([s.opposite is None for s in self.steerings])
+        return one_way & (self.numbers == 0.0) & (self.errors != 0.0)
+
     def change(self, radius: float) -> tuple[np.ndarray, float]:
         """Return a change of the numbers, and the merit that it promises.
 

@@ -22,6 +22,9 @@ __all__ = ["Trim", "trim"]
 FIRST_RADIUS, LARGEST_RADIUS = 10.0, 90.0
 """Change in degrees that a step aims at, at most: the angles saturate."""
 
+PROBE = 0.02
+"""Part of its limit at which a load that did not pull is tried."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Trim:
@@ -70,8 +73,8 @@ def trim(
 
     Each iteration solves for the change of the loads, within their limits and a trust region, by
     the sensitivities of the nearest state so far, and leads the scene there. A change that brings
-    the angles no nearer shrinks the region. Where that fails, it begins once more without loads.
-    Collective.
+    the angles no nearer shrinks the region. Where that fails, it begins once more without loads,
+    and from a small tension where cables are slack. Collective.
 
     Parameters
     ----------
@@ -101,6 +104,11 @@ def trim(
     if cause and first.any() and search.tried < max_iterations:
         # Far out angles fall again with the load, and the way back looks like the way on.
         again, other = search.run(np.zeros_like(first))
+        nearest, cause = min((nearest, cause), (again, other), key=lambda end: end[0].distance)
+    if cause and nearest.slack.any() and search.tried < max_iterations:
+        # The first newtons may turn an angle the other way than all that follow.
+        pulled = np.array([PROBE * s.limit for s in steerings])
+        again, other = search.run(np.where(nearest.slack, pulled, nearest.numbers))
         nearest, cause = min((nearest, cause), (again, other), key=lambda end: end[0].distance)
     end = nearest.state
     if cause and len(steerings) > 1:

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from morphing_wing import aim
 from morphing_wing.errors import InputError
 from morphing_wing.sensitivity import sensitivities
 from tests.scenes.small_wing import NO_RIBS, NO_SKIN, SPAR, actuated, angles, wing
@@ -124,6 +125,19 @@ def test_what_cannot_be_reached_is_said_from_the_nearest_state(changes, ask, met
     assert min(trimmed.loads.values()) >= 0.0
     if met:
         assert trimmed.angles[f"{met}_angle_deg"] == pytest.approx(ask[met], abs=1e-4)
+
+
+def test_cables_that_at_rest_turn_the_chord_the_other_way_are_pulled_all_the_same(monkeypatch):
+    def misled(scene, loads):
+        rates = sensitivities(scene, loads)
+        if scene.loads["cable_N"][0].value == 0.0:
+            rates["cable_N"]["chord_angle_deg"] *= -1.0
+        return rates
+
+    monkeypatch.setattr(aim, "sensitivities", misled)
+    trimmed = wing(**NO_SKIN).trim(chord=20.0)
+    assert trimmed.converged, trimmed.reason
+    assert trimmed.angles["chord_angle_deg"] == pytest.approx(20.0, abs=1e-4)
 
 
 def test_a_limit_point_of_the_elastomer_is_told_and_not_raised():
