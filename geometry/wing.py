@@ -172,6 +172,11 @@ class WingGeometry:
         assert self.skin_thickness is not None
         return self.section.x_where_half_thickness(1.5 * self.skin_thickness, front=False)
 
+    def without_skin(self) -> WingGeometry:
+        """Return the same wing without a skin and what goes with it."""
+        defaults = {name: allowed[0] for name, allowed in _OPTIONS.items()}
+        return replace(self, skin_thickness=None, skin_prestretch=(1.0, 1.0), **defaults)
+
     def rib_roots(self) -> np.ndarray:
         """Return the root of each rib, shape (n_ribs, 3), mm."""
         y = float(self.section.camber(self.spar_end))
@@ -199,11 +204,6 @@ class WingGeometry:
         room -= 0.1 + self.outer_wall - self.top_thickness
         require(self.top_thickness < room, "top_thickness", self.top_thickness, "mm",
                 f"less than {room:.4g} mm, or the chambers are taller than the aerofoil")
-
-    def without_skin(self) -> WingGeometry:
-        """Return the same wing without a skin and what goes with it."""
-        defaults = {name: allowed[0] for name, allowed in _OPTIONS.items()}
-        return replace(self, skin_thickness=None, skin_prestretch=(1.0, 1.0), **defaults)
 
     def _check_options(self) -> None:
         for name, allowed in _OPTIONS.items():

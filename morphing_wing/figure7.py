@@ -73,6 +73,8 @@ def figure7(
     geometry = WingGeometry.prototype() if geometry is None else geometry
     for name in fidelities:
         choose_fidelity(name, tuple(FIDELITIES))
+    for panel in panels:
+        require(panel in PANELS, "panel", panel, "", "pressure or cables")
     for direction in directions:
         require(direction in DIRECTIONS, "direction", direction, "", "down or up")
     if geometry.rib is None:
@@ -97,7 +99,7 @@ def _curves(
 ) -> Iterator[Curve]:
     for fidelity in dict.fromkeys(fidelities):
         for skin in dict.fromkeys(map(bool, skins)):
-            for panel in panels:
+            for panel in dict.fromkeys(panels):
                 for direction in dict.fromkeys(directions):
                     yield Curve(panel, skin, direction, fidelity)
 

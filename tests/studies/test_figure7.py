@@ -126,6 +126,7 @@ def test_a_study_whose_first_step_failed_is_written_empty(tmp_path):
 @pytest.mark.parametrize("changes, sentence", [
     ({"fidelities": ["best"]}, "fidelity = 'best': must be one of draft, standard"),
     ({"directions": ["left"]}, "direction = 'left': must be down or up"),
+    ({"panels": ["B-3"]}, "panel = 'B-3': must be pressure or cables"),
     ({"geometry": WingGeometry.prototype(rib=None)}, "rib = None: must be a rib"),
     ({"geometry": WingGeometry.prototype(skin_thickness=None)}, "skin_thickness = None: must be"),
 ])
