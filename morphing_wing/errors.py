@@ -6,6 +6,8 @@ import math
 import numbers
 from typing import Any
 
+import numpy as np
+
 __all__ = ["InputError", "is_count", "is_number", "one_line", "require"]
 
 
@@ -61,7 +63,7 @@ def is_count(value: object) -> bool:
 
 def is_finite(value: Any) -> bool:
     """Whether no number in ``value`` is NaN or infinite; what is not a number counts as finite."""
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, np.ndarray)):
         return all(is_finite(item) for item in value)
     try:
         return math.isfinite(value)

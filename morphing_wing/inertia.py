@@ -154,6 +154,11 @@ class InertiaCholesky:
     # -- the rule -----------------------------------------------------------------------------
 
     @property
+    def exists(self) -> bool:
+        """Whether there is a factor to solve with."""
+        return self._inner is not None
+
+    @property
     def surplus(self) -> int:
         """Negative pivots beyond those of a stable state."""
         return self.negative_pivots - self.expected_negative

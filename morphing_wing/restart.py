@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Restart", "read", "restart_file", "write"]
 
-_FORMAT = 3
+_FORMAT = 4
 _ROW = [f.name for f in dataclasses.fields(State) if f.name not in ("fields", "scene")]
 
 

@@ -23,9 +23,11 @@ from .inertia import InertiaCholesky
 from .iterate import Iterate
 from .newton import Newton, NewtonResult
 from .path import Path, State
+from .sensitivity import compliance
 from .stepping import Standing, Stepping, follow
 from .system import EquilibriumSystem
 from .targets import load_targets
+from .work import ExternalWork
 
 MOST_ROUNDS = 6
 """Solves of one load step between which the pairs in contact may change."""
@@ -63,9 +65,8 @@ class Scene(ABC):
         self.loads: dict[str, Any] = {}
         self._in_use: tuple[str, ...] | None = None
         self._load = dict.fromkeys(self.load_names, 0.0)
-        self._work = 0.0
+        self._work = ExternalWork()
         self._largest_force = 0.0
-        self._last_conjugates: dict[str, float] = {}
 
     # -- for users ----------------------------------------------------------------------------
 
@@ -125,6 +126,8 @@ class Scene(ABC):
             self._use(in_use)
         if earlier is not None:
             self.recall(earlier.memory)
+        if not self._work.knows_compliance:
+            self._work.learn(compliance(self, self.linearise(), self._work.names))
         states, converged, reason = follow(
             self, self._load, targets, self.stepping, on_step, on_cut, keep,
             earlier and earlier.standing,
@@ -187,18 +190,14 @@ class Scene(ABC):
         self, load: Mapping[str, float], result: NewtonResult, seconds: float, requested: bool
     ) -> State:
         """Measure the present state."""
-        conjugates = self._conjugates()
-        for name, value in conjugates.items():
-            before = self._last_conjugates.get(name, value)
-            mean = 0.5 * (load[name] + self._last_load[name])
-            self._work += self.multiplicity * mean * (value - before)
-        self._last_conjugates, self._last_load = conjugates, dict(load)
+        factor = self.newton.factor if self.newton.factor.exists else self.linearise()
+        self._work.add(load, self._conjugates(), compliance(self, factor, self._work.names))
         return State(
             load=dict(load),
             measures=self._measures(),
             newton_iterations=result.iterations,
             energy_Nmm=self.multiplicity * sum(self._stored_energies()),
-            external_work_Nmm=self._work,
+            external_work_Nmm=self.multiplicity * self._work.amount,
             negative_pivots=result.negative_pivots,
             step_seconds=seconds,
             requested=requested,
@@ -239,7 +238,7 @@ class Scene(ABC):
     def memory(self) -> dict[str, Any]:
         """Return what a next step inherits beside loads and unknowns; the same on all ranks."""
         own: dict[str, Any] = {
-            "external_work_Nmm": self._work, "largest_force_N": self._largest_force}
+            "work": self._work.memory(), "largest_force_N": self._largest_force}
         if self.contact is not None:
             own["facet_of_node"] = self.contact.memory()
         return own | self.newton.factor.memory()
@@ -249,7 +248,7 @@ class Scene(ABC):
         if self.contact is not None:
             self.contact.recall(self.system, memory["facet_of_node"])
             self.newton.renew()
-        self._work = memory["external_work_Nmm"]
+        self._work.recall(memory["work"])
         self._largest_force = memory["largest_force_N"]
         self.newton.factor.recall(memory)
 
@@ -304,8 +303,7 @@ class Scene(ABC):
         self._stored_forms = [compat.form(energy) for energy in self._stored()]
         self._in_use = in_use
         self.set_load(self._load)
-        self._last_load = dict(self._load)
-        self._last_conjugates = self._conjugates()
+        self._work.stand(self._load, self._conjugates())
 
     def _stored_energies(self) -> list[float]:
         return [compat.assemble_scalar(self.comm, form) for form in self._stored_forms]

@@ -51,9 +51,9 @@ def test_a_wing_sags_in_proportion_to_small_multiples_of_its_weight(changes):
 
 
 def test_the_work_of_the_weight_is_stored():
-    path = actuated(wing(**NO_SKIN), gravity=np.linspace(0.0, 1.0, 5))
+    path = actuated(wing(**NO_SKIN), gravity=[0.0, 0.5, 1.0])
     assert path[-1].external_work_Nmm == pytest.approx(path[-1].energy_Nmm, rel=1e-3)
-    assert path.table()["gravity_g"].tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert path.table()["gravity_g"].tolist() == [0.0, 0.5, 1.0]
 
 
 def test_weight_and_pressure_do_the_same_work_on_each_others_small_displacements():

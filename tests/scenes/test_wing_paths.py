@@ -71,6 +71,8 @@ def test_pressure_before_cable_ends_where_cable_before_pressure_does():
     last = actuated(wing(**NO_SKIN), upper=[0.0, 0.02], cable=[0.1, 0.1])[-1]
     for name, value in first.measures.items():
         assert last.measures[name] == pytest.approx(value, rel=1e-5), name
+    for state in (first, last):
+        assert state.external_work_Nmm == pytest.approx(state.energy_Nmm, rel=2e-3)
 
 
 def test_unloaded_the_wing_is_straight_again():
@@ -83,12 +85,12 @@ def test_unloaded_the_wing_is_straight_again():
 @pytest.mark.parametrize("changes, loads", [
     ({}, {"upper": 0.03}), (NO_SKIN, {"cable": 0.1}), (NO_SKIN, {"upper": 0.02, "cable": 0.1}),
 ], ids=["pressure", "cable", "both"])
-def test_external_work_tends_to_the_stored_energy_with_the_square_of_the_steps(changes, loads):
+def test_external_work_is_the_stored_energy_to_the_fourth_order_of_the_steps(changes, loads):
     errors = []
-    for n in (4, 8, 16):
+    for n in (1, 2, 4):
         steps = {name: np.linspace(0, value, n + 1)[1:] for name, value in loads.items()}
         last = actuated(wing(**changes), **steps)[-1]
         errors.append(abs(last.external_work_Nmm / last.energy_Nmm - 1.0))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert errors[-1] < 1e-3
-    assert orders == pytest.approx(2.0, abs=0.1)
+    assert errors[0] < 2e-3
+    assert orders == pytest.approx(4.0, abs=0.3)

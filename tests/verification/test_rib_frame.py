@@ -92,8 +92,8 @@ def test_symmetric_layers_keep_the_tail_in_its_plane():
 
 
 def test_stored_energy_is_the_work_of_the_moment():
-    state = rib(RibGeometry.validation()).bend(torque=np.linspace(0.0, 40.0, 11))[-1]
-    assert state.energy_Nmm == pytest.approx(state.external_work_Nmm, rel=1e-3)
+    state = rib(RibGeometry.validation()).bend(torque=[20.0, 40.0])[-1]
+    assert state.energy_Nmm == pytest.approx(state.external_work_Nmm, rel=1e-4)
 
 
 def test_large_steps_take_few_iterations_and_reach_the_state_of_small_ones():
