@@ -1,8 +1,8 @@
 """The command line, ``morphing-wing``; also under ``mpirun``.
 
 Exit status: 0 done, 1 unexpected failure, 2 bad input, 3 stopped before the last load step (what
-was reached is written). Whatever goes wrong is told in one sentence on stderr. DOLFINx is not
-loaded before something is solved.
+was reached is written), 4 a problem with a known answer was not verified. Whatever goes wrong is
+told in one sentence on stderr. DOLFINx is not loaded before something is solved.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from morphing_wing.together import (
     UNEXPECTED,
     run_together,
 )
+from morphing_wing.verify_command import verify
 
 __all__ = ["app", "main"]
 
@@ -139,6 +140,7 @@ def scenes(
 
 
 app.command()(paper)
+app.command()(verify)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -315,12 +315,12 @@ class EquilibriumSystem:
         return np.concatenate(self.comm.allgather(self._of_rows(b)))
 
     def _local_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
-        assert i == j, "energies couple a local block to others by its unknowns alone"
-        numbers = self._cell_numbers(self.blocks[i])
-        numbers = numbers[(numbers >= 0).any(axis=1)]
-        shape = (*numbers.shape, numbers.shape[1])
-        row = np.broadcast_to(numbers[:, :, None], shape).ravel()
-        column = np.broadcast_to(numbers[:, None, :], shape).ravel()
+        numbers = [self._cell_numbers(self.blocks[b]) for b in (i, j)]
+        both = np.logical_and(*((part >= 0).any(axis=1) for part in numbers))
+        rows, columns = (part[both] for part in numbers)
+        shape = (len(rows), rows.shape[1], columns.shape[1])
+        row = np.broadcast_to(rows[:, :, None], shape).ravel()
+        column = np.broadcast_to(columns[:, None, :], shape).ravel()
         present = (row >= 0) & (column >= 0)
         pairs = np.unique(np.stack([row[present], column[present]]), axis=1)
         row, column = np.concatenate(self.comm.allgather(pairs), axis=1)

@@ -16,9 +16,11 @@ from typing import Any
 import numpy as np
 from mpi4py import MPI
 
-__all__ = ["BAD_INPUT", "DONE", "INTERRUPTED", "STOPPED", "UNEXPECTED", "run_together"]
+__all__ = [
+    "BAD_INPUT", "DONE", "INTERRUPTED", "NOT_VERIFIED", "STOPPED", "UNEXPECTED", "run_together",
+]
 
-DONE, UNEXPECTED, BAD_INPUT, STOPPED, INTERRUPTED = 0, 1, 2, 3, 130
+DONE, UNEXPECTED, BAD_INPUT, STOPPED, NOT_VERIFIED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
 PATIENCE = 10.0
 """Seconds that a rank which failed waits for the others before it ends them."""

@@ -4,14 +4,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from morphing_wing import InputError, Rib
 from morphing_wing.forms.gravity import mass_density
 from morphing_wing.geometry import RibGeometry
 from morphing_wing.modes import modes
-from morphing_wing.newton import Newton
 from morphing_wing.path import State
-from tests.forms.cantilever import cantilever
+from morphing_wing.verification.cantilever import Cantilever
 from tests.solvers.strip import HEIGHT, LENGTH, Strip
 
 CRITICAL = 4 * np.pi**2 / 12 * HEIGHT**2 / LENGTH  # shortening in mm at Euler's load, ends clamped
@@ -63,11 +63,10 @@ def test_frequency_of_a_clamped_strip_is_the_beams(element):
 
 
 def test_frequencies_of_a_cantilever_of_beams_are_eulers():
-    beams, system = cantilever(20, length=30.0)
-    system.set_energies([beams.energy], [beams.tangent_correction])
-    newton = Newton(system, "test_modes_", before_tangent=beams.iterate.before_tangent)
-    assert newton.solve(1.0).converged
-    found = modes(scene_of(SimpleNamespace(body=beams, system=system, newton=newton)), 2)
+    bar = Cantilever(MPI.COMM_SELF, 20, length=30.0)
+    assert bar.newton.solve(1.0).converged
+    beams = bar.beams
+    found = modes(scene_of(SimpleNamespace(body=beams, system=bar.system, newton=bar.newton)), 2)
     density, young = 1e-12 * beams.material.density, beams.material.E
     euler = 1.875104**2 / 30.0**2 * np.sqrt(young / 12.0 / density) / (2.0 * np.pi)
     for mode in found:  # it is square: one for each direction

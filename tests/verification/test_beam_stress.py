@@ -2,19 +2,20 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from morphing_wing.beam_stress import BeamStress
 from morphing_wing.geometry.section import Circle, Rectangle, Stiffened, torsion_modulus
 from morphing_wing.materials import RESIN
-from tests.forms.cantilever import cantilever, tail_after
+from morphing_wing.verification.cantilever import Cantilever
 
 pytestmark = pytest.mark.quick
 
 
 def stress(load, section, cells=1, length=10.0):
-    beams, system = cantilever(cells, length, section=section)
-    tail_after(beams, system, load)
-    return BeamStress(beams, RESIN).largest()
+    bar = Cantilever(MPI.COMM_SELF, cells, length, section=section)
+    bar.tip_after(load)
+    return BeamStress(bar.beams, RESIN).largest()
 
 
 @pytest.mark.parametrize("cells", [1, 4])

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from morphing_wing.geometry.hexmesh import swept_blocks, uniform
 from morphing_wing.materials import DRAGON_SKIN_30
-from tests.verification.solving import Equilibrium
+from morphing_wing.verification.equilibrium import Equilibrium
 
 LENGTH, DEFLECTION, CELLS = 40.0, 0.1, 8
 
@@ -20,7 +21,8 @@ def energy(element, oblique=0.0):
 
     lines = LENGTH * uniform(CELLS), uniform(1), uniform(1)
     grid = swept_blocks(lines, np.ones((CELLS, 1, 1), int), {1: "body"}, mapping, faces)
-    problem = Equilibrium(grid, DRAGON_SKIN_30, element, clamped=("left",), symmetry={"right": 1})
+    problem = Equilibrium(
+        MPI.COMM_SELF, grid, DRAGON_SKIN_30, element, clamped=("left",), symmetry={"right": 1})
     problem.displacement_function().interpolate(
         lambda x: DEFLECTION * np.stack([0 * x[0], (x[0] / LENGTH) ** 2, 0 * x[0]]))
     problem.solve()

@@ -6,8 +6,8 @@ from scipy.optimize import brentq
 
 from morphing_wing.geometry.hexmesh import HexMesh, swept_blocks, uniform
 from morphing_wing.materials import DRAGON_SKIN_30, Yeoh
+from morphing_wing.verification.homogeneous import principal_stress
 from tests.verification.moved import Moved, pressing
-from tests.verification.test_homogeneous import principal_stress
 
 SIZE, APART, STIFFNESS = 4.0, 0.5, 20.0
 MATERIAL = Yeoh(DRAGON_SKIN_30.coefficients, bulk=2.0)

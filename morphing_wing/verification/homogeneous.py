@@ -1,0 +1,146 @@
+"""Homogeneous deformations: the patch test, and Yeoh's rubber in tension and shear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from dolfinx import fem
+from mpi4py import MPI
+from scipy.optimize import brentq
+
+from morphing_wing.elements import ELEMENTS
+from morphing_wing.geometry.hexmesh import HexMesh
+from morphing_wing.materials import DRAGON_SKIN_30, Yeoh
+
+from .check import Check
+from .equilibrium import Equilibrium
+from .meshes import SIDES, cube
+
+__all__ = ["computed_stress", "exact_stress", "homogeneous", "patch", "patch_error",
+           "principal_stress", "shear_stress"]
+
+MILD = Yeoh(DRAGON_SKIN_30.coefficients, bulk=2.0)
+OBLIQUE = np.array([[1.0, 0.3, -0.2], [0.0, 1.1, 0.25], [0.0, 0.0, 0.9]])
+
+
+def grid_of(element: str) -> HexMesh:
+    """Return a cube in the worst hexahedra on which an element passes the patch test.
+
+    One volumetric point a cell cannot integrate the volume's gradient of a warped hexahedron.
+    """
+    return cube(warp=0.0, affine=OBLIQUE) if element == "Q1 reduced" else cube()
+
+
+def patch_error(element: str, grid: HexMesh, comm: MPI.Comm) -> float:
+    """Return the largest deviation in mm from the homogeneous deformation of the boundary."""
+    H = np.array([[0.25, 0.1, 0.0], [-0.1, -0.1, 0.15], [0.05, 0.0, 0.1]])
+    problem = Equilibrium(comm, grid, MILD, element, clamped=SIDES)
+    problem.displacement_function().interpolate(lambda x: H @ x)
+    values = problem.body.function.x.array
+    free = np.setdiff1d(np.arange(len(values)), problem.body.block.constrained)
+    values[free] += 0.01 * np.random.default_rng(3).standard_normal(len(free))
+    problem.body.function.x.scatter_forward()
+    problem.solve()
+    u = problem.body.displacement()
+    expected = fem.Function(u.function_space)
+    expected.interpolate(lambda x: H @ x)
+    return comm.allreduce(float(np.abs(u.x.array - expected.x.array).max()), op=MPI.MAX)
+
+
+def patch(comm: MPI.Comm) -> Iterator[Check]:
+    """Yield the patch test of every element."""
+    for element in ELEMENTS:
+        yield Check(f"{element}: deviation", patch_error(element, grid_of(element), comm), 0.0,
+                    "mm", 1e-9)
+
+
+def principal_stress(material: Yeoh, stretches: Sequence[float], k: int) -> float:
+    """Return the nominal stress of Yeoh's rubber in principal stretches."""
+    a = np.array(stretches)
+    J, I1 = a.prod(), (a**2).sum()
+    slope = sum(i * C * (J ** (-2 / 3) * I1 - 3.0) ** (i - 1)
+                for i, C in enumerate(material.coefficients, start=1))
+    isochoric = 2.0 * slope * J ** (-2 / 3) * (a[k] - I1 / (3.0 * a[k]))
+    return isochoric + material.bulk * (J - 1.0) * J / a[k]
+
+
+# Principal stretches by the given one and the free one; faces that are moved, beside the planes
+# of symmetry; the free stretch of an incompressible body.
+MODES = {
+    "uniaxial": (lambda lam, t: (t, t, lam), ("z+",), lambda lam: lam**-0.5),
+    "equibiaxial": (lambda lam, t: (lam, t, lam), ("x+", "z+"), lambda lam: lam**-2),
+    "planar": (lambda lam, t: (t, 1.0, lam), ("y+", "z+"), lambda lam: 1.0 / lam),
+}
+
+
+def exact_stress(mode: str, material: Yeoh, lam: float) -> float:
+    """Return the nominal stress along z in MPa where the free sides bear none."""
+    stretches, _, guess = MODES[mode]
+    free = 1 if mode == "equibiaxial" else 0
+    t = brentq(lambda t: principal_stress(material, stretches(lam, t), free),
+               0.9 * guess(lam), 1.2 * guess(lam), xtol=1e-15)
+    return principal_stress(material, stretches(lam, t), 2)
+
+
+def _wave(x: np.ndarray) -> np.ndarray:
+    """Return something that is zero on the faces of the unit cube only."""
+    return np.prod(np.sin(np.pi * x), axis=0) * np.sin(3.0 * x[[1, 2, 0]])
+
+
+def computed_stress(
+    mode: str, material: Yeoh, element: str, lam: float, grid: HexMesh, comm: MPI.Comm
+) -> float:
+    """Return the nominal stress along z in MPa: inner forces' work on a stretch along z."""
+    stretches, moved, guess = MODES[mode]
+    held = {f"{axis}-": i for i, axis in enumerate("xyz")}
+    held |= {face: "xyz".index(face[0]) for face in moved}
+    problem = Equilibrium(comm, grid, material, element, symmetry=held)
+    body, growth = problem.body, fem.Function(problem.body.function.function_space)
+    before = np.ones(3)
+    for step in np.linspace(1.0, lam, 2 + int(abs(lam - 1.0) / 0.3))[1:]:
+        # Held faces move as wanted, all else to a first guess that is not in equilibrium.
+        now = np.array(stretches(step, guess(step)))
+        factors = now - before
+        body.displacement_part(growth).interpolate(
+            lambda x, factors=factors: factors[:, None] * (x + 0.1 * _wave(x)))
+        body.function.x.array[:] += growth.x.array
+        problem.solve()
+        before = now
+    return problem.force_along(lambda x: np.stack([0 * x[0], 0 * x[0], x[2]]))
+
+
+def shear_stress(
+    material: Yeoh, element: str, shear: float, grid: HexMesh, comm: MPI.Comm
+) -> float:
+    """Return the shear stress in MPa of the unit cube sheared by its boundary: x moves with y."""
+    problem = Equilibrium(comm, grid, material, element, clamped=SIDES)
+    body, growth = problem.body, fem.Function(problem.body.function.function_space)
+    steps = 2
+    body.displacement_part(growth).interpolate(lambda x: shear / steps * np.stack(
+        [x[1], 0 * x[0], 0 * x[0]]) + 0.02 * _wave(x))
+    for _ in range(steps):
+        body.function.x.array[:] += growth.x.array
+        problem.solve()
+    return problem.force_along(lambda x: np.stack([x[1], 0 * x[0], 0 * x[0]]))
+
+
+def homogeneous(comm: MPI.Comm) -> Iterator[Check]:
+    """Yield stresses of every element in tension, compression and simple shear."""
+    C10, C20 = DRAGON_SKIN_30.coefficients
+    for element in ELEMENTS:
+        grid = cube(warp=0.0) if element == "Q1 reduced" else cube()
+        for mode in MODES:
+            for lam in (0.9, 2.0):
+                yield Check(
+                    f"{element}, {mode}, stretch {lam:g}: nominal stress",
+                    computed_stress(mode, DRAGON_SKIN_30, element, lam, grid, comm),
+                    exact_stress(mode, DRAGON_SKIN_30, lam), "MPa", 1e-8)
+        yield Check(f"{element}, simple shear by 0.5: shear stress",
+                    shear_stress(DRAGON_SKIN_30, element, 0.5, grid, comm),
+                    2.0 * 0.5 * (C10 + 2.0 * C20 * 0.5**2), "MPa", 1e-8)
+    incompressible = Yeoh((C10, C20), bulk=1e8 * DRAGON_SKIN_30.shear_modulus)
+    for lam, stress in ((1.5, 0.2453), (2.0, 0.3999), (3.0, 0.6231), (4.0, 0.7754), (4.64, 0.8357)):
+        yield Check(f"incompressible, uniaxial, stretch {lam:g}: nominal stress",
+                    computed_stress("uniaxial", incompressible, "Q2/P1disc", lam, cube(), comm),
+                    stress, "MPa", 0.5e-4 / stress)
