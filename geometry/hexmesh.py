@@ -43,6 +43,12 @@ class HexMesh:
         vertices = self.cells[pairs[:, 0][:, None], FACET_VERTICES[pairs[:, 1]]]
         return self.points[vertices]
 
+    def beyond(self, name: str) -> np.ndarray:
+        """Return a place just outside the body at each facet of a face, shape (k, 3), in mm."""
+        middles = self.facet_points(name).mean(axis=1)
+        cells = self.points[self.cells[self.facets[name][:, 0]]].mean(axis=1)
+        return middles + 0.1 * (middles - cells)
+
 
 def breakpoints(*pieces: tuple[float, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Join pieces ``(length, fractions in [0, 1])`` to a line.

@@ -130,6 +130,10 @@ class SparGeometry:
         """Chordwise width in mm over all."""
         return self.cavity_width + 2 * self.side_thickness
 
+    def chamber_of(self, z: np.ndarray) -> np.ndarray:
+        """Return the number, from 0 at the root, of the chamber at each place along the span."""
+        return ((z - self.wall_length) // (self.cavity_length + self.wall_length)).astype(int)
+
     def mesh(self, meshing: SparMeshing | None = None, half: bool = True) -> HexMesh:
         """Return swept hexahedra; x from the symmetry plane, y up from the middle, z from the root.
 

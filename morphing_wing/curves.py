@@ -27,6 +27,8 @@ AXES = {
     "pressure_MPa": (1000.0, r"pressure $P$, kPa"),
     "upper_MPa": (1000.0, r"pressure of the upper chambers $P$, kPa"),
     "lower_MPa": (1000.0, r"pressure of the lower chambers $P$, kPa"),
+    "upper_mm3": (1e-3, "volume filled into the upper chambers, ml"),
+    "lower_mm3": (1e-3, "volume filled into the lower chambers, ml"),
     "cable_N": (1.0, r"tension of each cable $T$, N"),
     "torque_Nmm": (1.0, r"end moment $M$, N mm"),
     "gravity_g": (1.0, r"weight, multiples of standard gravity"),

@@ -170,11 +170,13 @@ class Path(Sequence[State]):
         return row | ({"contact": float(state.contact)} if "contact" in state.measures else {})
 
     def _pressure(self, state: State) -> dict[str, float]:
-        rows = [row for row in ("upper_MPa", "lower_MPa") if row in state.load]
+        found = state.measures | state.load  # filled chambers' pressures are measured
+        rows = [row for row in ("upper_MPa", "lower_MPa") if row in found]
         if not rows:
             return {}
-        inflated = [row for row in rows if any(s.load.get(row, 0.0) != 0.0 for s in self._states)]
-        return {"pressure_MPa": state.load[(inflated or rows)[0]]}
+        inflated = [row for row in rows if any(
+            (s.measures | s.load).get(row, 0.0) != 0.0 for s in self._states)]
+        return {"pressure_MPa": found[(inflated or rows)[0]]}
 
     def summary(self) -> dict[str, Any]:
         """Return the content of ``summary.json``, see `morphing_wing.summary.summary`."""

@@ -35,7 +35,9 @@ COLOUR_MAP = LinearSegmentedColormap.from_list(
     "silicone", ["#f2efe9", "#f8d58a", "#f2a04e", "#dc6040", "#a92c55", "#681d61"])
 _LOADS = {
     "upper_MPa": (1000.0, "kPa in the upper chambers"), "torque_Nmm": (1.0, "N mm end moment"),
-    "lower_MPa": (1000.0, "kPa in the lower chambers"), "cable_N": (1.0, "N in each cable"),
+    "lower_MPa": (1000.0, "kPa in the lower chambers"),
+    "upper_mm3": (1e-3, "ml filled into the upper chambers"),
+    "lower_mm3": (1e-3, "ml filled into the lower chambers"), "cable_N": (1.0, "N in each cable"),
     "gravity_g": (1.0, "times standard gravity"),
 }
 MODE_PART = 0.04

@@ -16,6 +16,7 @@ __all__ = ["Progress"]
 # Column of a load -> (factor to the printed unit, heading). Only loads that the scene has appear.
 _LOADS = {
     "upper_MPa": (1000.0, "upper kPa"), "lower_MPa": (1000.0, "lower kPa"),
+    "upper_mm3": (1.0, "upper mm^3"), "lower_mm3": (1.0, "lower mm^3"),
     "cable_N": (1.0, "cable N"), "torque_Nmm": (1.0, "torque N mm"),
     "gravity_g": (1.0, "gravity g"),
 }

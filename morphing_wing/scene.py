@@ -55,6 +55,7 @@ class Scene(ABC):
     load_names: tuple[str, ...] = ()
     stepping = Stepping()
     multiplicity = 1
+    led = False  # whether loads are volumes, and pressures unknowns
 
     system: EquilibriumSystem
     contact: Contact | None = None
@@ -65,7 +66,7 @@ class Scene(ABC):
         self.loads: dict[str, Any] = {}
         self._in_use: tuple[str, ...] | None = None
         self._load = dict.fromkeys(self.load_names, 0.0)
-        self._work = ExternalWork()
+        self._work = ExternalWork(self.led)
         self._largest_force = 0.0
 
     # -- for users ----------------------------------------------------------------------------

@@ -16,6 +16,8 @@ from .chamber_contact import in_chambers
 from .chambers import Chambers
 from .elastomer import Elastomer
 from .elements import element as element_named
+from .errors import InputError
+from .filled import FILLINGS, FilledChambers
 from .forms.gravity import mass_density
 from .geometry.spar import SparGeometry, SparMeshing
 from .iterate import Iterate
@@ -62,6 +64,9 @@ class Spar(Scene):
     contact
         Whether the ceiling and the floor of a chamber press against each other, as they may under
         suction. Without, nothing is told of it.
+    filled
+        None: pressures are given. "shared" or "separate": volumes are, by one supply for all
+        chambers of a row or an equal part for each; see `fill`.
 
     Examples
     --------
@@ -83,7 +88,9 @@ class Spar(Scene):
         element: str | None = None,
         options_prefix: str = "spar_",
         contact: bool = False,
+        filled: str | None = None,
     ) -> None:
+        self.led = filled is not None
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         super().__init__(fidelity, comm)
         self.geometry, self.material = geometry, material
@@ -97,7 +104,20 @@ class Spar(Scene):
             symmetry={"symmetry": 0} if half else None,
         )
         self.contact = in_chambers(self.body) if contact else None
-        self.system = EquilibriumSystem(self.comm, [part.block for part in self._parts()])
+        blocks = [part.block for part in self._parts()]
+        self._filled = None
+        if filled is not None:
+            self.load_names = ("upper_mm3", "lower_mm3")
+            self._load = dict.fromkeys(self.load_names, 0.0)
+            self.primary_load = "upper_mm3"
+            self._filled = FilledChambers(
+                self.body, geometry.chamber_of, filled, 1.0 / self.multiplicity)
+            # Unknowns before what stands for others'.
+            blocks[1:1] = self._filled.own_blocks
+            blocks += self._filled.seen_blocks
+        self.system = EquilibriumSystem(self.comm, blocks)
+        if self._filled is not None:
+            self._filled.number(self.system)
         self._options_prefix = options_prefix
 
     def inflate(
@@ -128,8 +148,48 @@ class Spar(Scene):
         InputError
             If a pressure is not a finite number.
         """
+        if self._filled is not None:
+            raise InputError(
+                f"filled = {self._filled.filling!r}: must be None where pressures are given")
         loads = {"upper_MPa": upper, "lower_MPa": lower}
         return self.follow(loads, on_step, on_cut, restart, resume)
+
+    def fill(
+        self,
+        upper: float | Sequence[float] | None = None,
+        lower: float | Sequence[float] | None = None,
+        on_step: Callable[[State], None] | None = None,
+        on_cut: Callable[..., None] | None = None,
+        restart: str | os.PathLike | None = None,
+        resume: str | os.PathLike | None = None,
+    ) -> Path:
+        """Fill the chambers of the upper and the lower row with volumes, past limit points.
+
+        The pressure is found: ``pressure_MPa`` in the table, with what tells of one chamber that
+        balloons alone, see `morphing_wing.filled.FilledChambers.measures`. A state is stable under
+        a given volume if it has no surplus negative pivots; under a given pressure it is not where
+        the pressure falls.
+
+        Parameters
+        ----------
+        upper, lower
+            Volumes in mm^3 beyond those at rest, of a whole row: a number, a sequence of them, or
+            None (an open row, without pressure).
+        on_step, on_cut, restart, resume
+            See `Scene.follow`.
+
+        Raises
+        ------
+        InputError
+            If the spar was not made with ``filled``, or a volume is not a finite number.
+        """
+        if self._filled is None:
+            raise InputError(f"filled = None: must be one of {', '.join(FILLINGS)} to fill a spar")
+        loads = {"upper_mm3": upper, "lower_mm3": lower}
+        path = self.follow(loads, on_step, on_cut, restart, resume)
+        if len(path) and not path.converged:
+            path.reason += self._filled.localised(path[-1].measures)
+        return path
 
     # -- for the pictures ---------------------------------------------------------------------
 
@@ -146,7 +206,7 @@ class Spar(Scene):
             "element": self.body.element.name,
             "half_model": self.multiplicity == 2,
             "contact": self.contact is not None,
-        }
+        } | ({} if self._filled is None else {"filled": self._filled.filling})
 
     # -- what the scene is made of ------------------------------------------------------------
 
@@ -157,17 +217,21 @@ class Spar(Scene):
         return Newton(
             self.system,
             self._options_prefix,
-            expected_negative=self.body.n_pressures(),
+            expected_negative=self.body.n_pressures() + (self._filled.count if self._filled else 0),
             max_iterations=25 if self.contact is None else 60,
             before_tangent=self.before_tangent,
             admissible=self.admissible if self.contact is not None else None,
         )
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
-        self._chambers = Chambers(self.body, in_use)
-        self.loads = self._chambers.pressures
-        energies = [part.energy for part in self._parts()] + self._chambers.potentials
-        return energies, [part.tangent_correction for part in self._parts()]
+        if self._filled is None:
+            self._chambers = Chambers(self.body, in_use)
+            self.loads, potentials = self._chambers.pressures, self._chambers.potentials
+        else:
+            self.loads, potentials = self._filled.use(in_use)
+        corrections = {self.system.blocks.index(part.block): part.tangent_correction
+                       for part in self._parts()}
+        return [part.energy for part in self._parts()] + potentials, corrections
 
     def _stored(self) -> list[Any]:
         return [part.energy for part in self._parts()]
@@ -178,10 +242,11 @@ class Spar(Scene):
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown."""
-        return [mass_density(self.material.density) * self.body.lumped_volume()]
+        weightless = [np.zeros(block.n_owned) for block in self.kept_blocks[1:]]
+        return [mass_density(self.material.density) * self.body.lumped_volume(), *weightless]
 
     def _conjugates(self) -> dict[str, float]:
-        return self._chambers.volumes()
+        return self._chambers.volumes() if self._filled is None else self._filled.conjugates()
 
     def _measures(self) -> dict[str, float]:
         tip = self.body.mean_displacement("tip")
@@ -192,4 +257,6 @@ class Spar(Scene):
         if self.contact is not None:
             found |= self.contact.measures()
             found["contact_force_N"] *= self.multiplicity
+        if self._filled is not None:
+            found |= self._filled.measures()
         return found

@@ -8,7 +8,7 @@ couple fields by plain UFL: residual and tangent are their derivatives, and the 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -53,17 +53,20 @@ class EquilibriumSystem:
     # -- the functional -----------------------------------------------------------------------
 
     def set_energies(
-        self, energies: Sequence[Any], tangent_corrections: Sequence[Any | None] | None = None
+        self,
+        energies: Sequence[Any],
+        tangent_corrections: Sequence[Any | None] | Mapping[int, Any | None] = (),
     ) -> None:
         """Set the functional to a sum of energies, UFL functionals.
 
         Each is compiled on its own: a load or a part that comes or goes makes nothing else new.
         ``tangent_corrections[i]`` is a bilinear form of block i, added to the tangent of the first
-        energy that depends on that block, or None.
+        energy that depends on that block, or None: every block that stores energy has an entry.
         """
         self._residuals, self._tangents = [], []
         self._energies = list(energies)
-        corrections = dict(enumerate(tangent_corrections or ()))
+        given = tangent_corrections
+        corrections = dict(given if isinstance(given, Mapping) else enumerate(given))
         for energy in energies:
             for i, block in enumerate(self.blocks):
                 residual = _derivative(energy, block.function, 0)

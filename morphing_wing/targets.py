@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import InputError, require
 
-UNITS = {"MPa": "MPa", "N": "N", "Nmm": "N mm", "g": "g", "part": ""}
+UNITS = {"MPa": "MPa", "mm3": "mm^3", "N": "N", "Nmm": "N mm", "g": "g", "part": ""}
 """End of a load's name -> its unit as one writes it."""
 
 

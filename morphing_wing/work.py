@@ -25,14 +25,23 @@ class ExternalWork:
     is monotone (Fritsch and Carlson 1980, SIAM J. Numer. Anal. 17, 238). Near a limit point, where
     the compliance has no bound, this is what keeps the sum sound.
 
+    Where volumes are given and pressures are unknowns, :math:`\lambda` are the volumes, q minus the
+    pressures, and what is wanted is :math:`-\int q \cdot d\lambda`; a pressure may fall there.
+
+    Parameters
+    ----------
+    led
+        Whether it is so.
+
     Attributes
     ----------
     amount
         Work so far, N mm.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, led: bool = False) -> None:
         self.amount = 0.0
+        self._led = led
         self._load: dict[str, float] = {}
         self._displacement: dict[str, float] = {}
         self._compliance: np.ndarray | None = None
@@ -79,7 +88,11 @@ class ExternalWork:
         change = np.array([load[name] - self._load[name] for name in self.names])
         mean = np.array([0.5 * (load[name] + self._load[name]) for name in self.names])
         moved = np.array([displacement[name] - self._displacement[name] for name in self.names])
-        self.amount += float(mean @ moved) - self._curvature(change, moved, compliance)
+        trapezium = mean @ moved
+        if self._led:
+            trapezium -= sum(load[n] * displacement[n] - self._load[n] * self._displacement[n]
+                             for n in self.names)
+        self.amount += float(trapezium) - self._curvature(change, moved, compliance)
         self.stand(load, displacement)
         self.learn(compliance)
 
@@ -89,7 +102,7 @@ class ExternalWork:
         slopes = [float(change @ c @ change) for c in (self._compliance, compliance)]
         if not np.isfinite(slopes).all():
             return 0.0
-        before, after = np.clip(slopes, 0.0, steepest)
+        before, after = slopes if self._led else np.clip(slopes, 0.0, steepest)
         return (before - after) / 12.0
 
     # -- for restarts -------------------------------------------------------------------------

@@ -67,7 +67,7 @@ class Equilibrium:
             if self._led is None:
                 energies.append(-work(self.body, self.load))
             else:
-                energies += [-work(self.body, self._led.seen), self._led.potential]
+                energies += [-work(self.body, self._led.seen), self._led.potential()]
                 blocks += self._led.blocks
         self.system = EquilibriumSystem(comm, blocks)
         if self._led is not None:
@@ -106,7 +106,7 @@ class Equilibrium:
         """Return the load that brings about a displacement, led there in equal steps."""
         before = self.displacement()
         for part in np.arange(1, steps + 1) / steps:
-            self._led.lead(before + part * (displacement - before))
+            self._led.given.value = before + part * (displacement - before)
             self.solve()
         return self._led.value
 

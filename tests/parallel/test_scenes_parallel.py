@@ -64,6 +64,16 @@ def test_spar_is_the_same():
     compare(run)
 
 
+@pytest.mark.quick
+@pytest.mark.parametrize("filled", ["shared", "separate"])
+def test_spar_filled_with_a_volume_is_the_same(filled):
+    def run(comm):
+        scene = Spar(SparGeometry.validation(3), fidelity="draft", comm=comm, filled=filled)
+        return scene.fill(upper=[1000.0, 2500.0], lower=[0.0, 500.0])
+
+    compare(run)
+
+
 @pytest.mark.parametrize("element", ["Q2/P1disc", "Q2/Q1", "Q2 reduced"])
 def test_spar_of_each_kind_of_element_is_the_same(element):
     def run(comm):
