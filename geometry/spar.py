@@ -59,6 +59,12 @@ class SparMeshing:
             middle_thickness=uniform(level),
         )
 
+    def split(self, parts: int) -> SparMeshing:
+        """Return the meshing with each interval in equal parts: its uniform refinement."""
+        return SparMeshing(*(
+            np.interp(np.arange(parts * (len(line) - 1) + 1) / parts, np.arange(len(line)), line)
+            for line in (getattr(self, field.name) for field in fields(self))))
+
 
 @dataclass(frozen=True)
 class SparGeometry:

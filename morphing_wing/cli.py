@@ -84,6 +84,7 @@ def solve(
 
     file = comm.bcast(on_root(comm, read), root=0)
 
+    from morphing_wing.passed import passed
     from morphing_wing.progress import Progress
 
     progress = Progress(comm)
@@ -93,6 +94,8 @@ def solve(
         path = file.run(built, on_step=progress, on_cut=progress.cut, restart=folder,
                         resume=folder if resume else None)
     progress.end(path.converged, path.reason)
+    for sentence in passed(path):
+        typer.echo(sentence)
     before = len(path) - progress.steps
     if resume:
         typer.echo(f"{before} step(s) were done before, {progress.steps or 'none'} now")

@@ -19,7 +19,7 @@ import numpy as np
 
 from morphing_wing import compat
 from morphing_wing.root import on_root, write_whole
-from morphing_wing.stretch import nodal_stretch
+from morphing_wing.stretch import nodal_stretches
 
 if TYPE_CHECKING:
     import pyvista
@@ -107,11 +107,11 @@ class FieldGrid:
         for nodes, local in parts:
             if len(nodes):
                 displacement[self._point_of(nodes)] = local
-        stretch = nodal_stretch(self.cell_name, self._nodes, self._points, displacement)
+        stretches = nodal_stretches(self.cell_name, self._nodes, self._points, displacement)
         topology = np.insert(self._vtk, 0, self._vtk.shape[1], axis=1)
         grid = pyvista.UnstructuredGrid(topology.ravel(), self._types, self._points)
         grid.point_data["displacement"] = displacement
-        grid.point_data["stretch"] = stretch
+        grid.point_data["stretch"], grid.point_data["second_stretch"] = stretches.T
         grid.cell_data["cell"] = self.cells
         return grid
 

@@ -1,48 +1,69 @@
-"""What ends the use of a wing: torn rubber, yielding resin; measured beside a path's angles."""
+"""What ends the use of a scene: torn rubber, a law that gives way, yielding resin."""
 
 from __future__ import annotations
 
+import weakref
 from typing import Any
 
 from .beam_stress import BeamStress
 from .fields import scene_grids
 from .path import Path, State
 from .progress import Progress
+from .scene import Scene
 from .wing import Wing
 
 __all__ = ["Limits", "actuated"]
 
 
 class Limits:
-    """Adds ``largest_stretch`` and ``rib_stress_MPa`` to the measures of each state.
+    """Adds to the measures of each state what tells of the end of use.
 
-    The first is the largest principal stretch at the elastomer's nodes, which at the chambers'
-    re-entrant corners grows as the mesh is refined; the second, von Mises' stress in the ribs'
-    bars, is there where the wing has ribs.
+    ``largest_stretch`` is the largest principal stretch at the elastomer's nodes, which at the
+    chambers' re-entrant corners grows as the mesh is refined, and ``largest_stretch_x_mm``, ``y``,
+    ``z`` where that is before the deformation. ``material_stability`` is the least of
+    `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. ``rib_stress_MPa``,
+    von Mises' stress in the bars, is there where a wing has ribs. `morphing_wing.passed.passed`
+    says in words from which load on a limit is passed.
 
     Parameters
     ----------
-    wing
-        The wing; call the object with each of its states while it is the present one, as
-        ``on_step`` does. Collective.
+    scene
+        Put the object into the scene's ``watch``, or call it with each state while it is the
+        present one, as ``on_step`` does. Collective.
 
     Examples
     --------
-    >>> path = wing.actuate(cable=0.1, on_step=Limits(wing))        # doctest: +SKIP
-    >>> path[-1].measures["rib_stress_MPa"]                         # doctest: +SKIP
+    >>> wing.watch.append(Limits(wing))                             # doctest: +SKIP
+    >>> wing.actuate(cable=0.1)[-1].measures["rib_stress_MPa"]      # doctest: +SKIP
     """
 
-    def __init__(self, wing: Wing) -> None:
-        self._wing = wing
-        self._stress = BeamStress(wing.ribs, wing.resin) if wing.ribs is not None else None
+    def __init__(self, scene: Scene) -> None:
+        self._scene = weakref.proxy(scene)  # which may hold this object
+        self._stress = None
+        for frame, material in (("ribs", "resin"), ("beams", "material")):
+            if getattr(scene, frame, None) is not None:
+                self._stress = BeamStress(getattr(scene, frame), getattr(scene, material))
 
     def __call__(self, state: State) -> None:
         """Measure the present state."""
-        grid: Any = scene_grids(self._wing, state)["elastomer"]
-        stretch = None if grid is None else float(grid.point_data["stretch"].max())
-        state.measures["largest_stretch"] = self._wing.comm.bcast(stretch)
+        scene = self._scene
+        if "elastomer" in scene.functions:
+            state.measures.update(scene.comm.bcast(self._stretches(state)))
         if self._stress is not None:
             state.measures["rib_stress_MPa"] = self._stress.largest()
+
+    def _stretches(self, state: State) -> dict[str, float] | None:
+        """Return what the stretches tell, on rank 0."""
+        grid: Any = scene_grids(self._scene, state)["elastomer"]
+        if grid is None:
+            return None
+        first, second = grid.point_data["stretch"], grid.point_data["second_stretch"]
+        most = int(first.argmax())
+        found = {"largest_stretch": float(first[most])}
+        found |= {f"largest_stretch_{axis}_mm": float(x)
+                  for axis, x in zip("xyz", grid.points[most], strict=True)}
+        stability = self._scene.body.material.stability(first, second)
+        return found | {"material_stability": float(stability.min())}
 
 
 def actuated(

@@ -8,6 +8,8 @@ from __future__ import annotations
 import numbers
 from dataclasses import dataclass
 
+import numpy as np
+
 from morphing_wing.errors import InputError, is_number, require
 
 __all__ = [
@@ -71,6 +73,31 @@ class Yeoh:
     def shear_modulus(self) -> float:
         """Shear modulus at zero strain, mu = 2 C10, in MPa."""
         return 2.0 * self.coefficients[0]
+
+    def stability(self, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        r"""Return how stable the incompressible law is where two principal stretches are such.
+
+        The smaller eigenvalue of the Hessian of :math:`W(\lambda_1, \lambda_2)`, whose gradient
+        are the nominal stresses, over its value 4 C10 at rest: 1 there, 0 where under given forces
+        it gives way. That is the largest force in uniaxial and in equibiaxial tension (for the
+        paper's constants at stretches of 5.456 and 3.837), and shortly before it in planar tension.
+
+        Parameters
+        ----------
+        first, second
+            Principal stretches, the third is 1 over their product; of one shape.
+        """
+        a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+        excess = a**2 + b**2 + (a * b) ** -2 - 3.0
+        slope = sum(i * C * excess ** (i - 1) for i, C in enumerate(self.coefficients, start=1))
+        curvature = sum(i * (i - 1) * C * excess ** (i - 2)
+                        for i, C in enumerate(self.coefficients[1:], start=2))
+        by_a, by_b = 2 * (a - a**-3 * b**-2), 2 * (b - b**-3 * a**-2)
+        aa = slope * (2 + 6 * a**-4 * b**-2) + curvature * by_a**2
+        bb = slope * (2 + 6 * b**-4 * a**-2) + curvature * by_b**2
+        ab = slope * 4 * (a * b) ** -3 + curvature * by_a * by_b
+        smaller = 0.5 * (aa + bb) - np.hypot(0.5 * (aa - bb), ab)
+        return smaller / (4.0 * self.coefficients[0])
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from morphing_wing.errors import InputError
 from morphing_wing.renderer import or_warned
 from morphing_wing.root import on_root, write_whole
 from morphing_wing.summary import summary
+from morphing_wing.targets import load_words
 
 __all__ = ["Path", "State", "load_table"]
 
@@ -79,9 +80,8 @@ class State:
         from morphing_wing.pictures import render
 
         if not self.fields:
-            load = ", ".join(f"{name} = {value:.6g}" for name, value in self.load.items())
-            raise InputError(f"state at {load}: has no fields to draw, of the states before a "
-                             "restart only the last one's are kept")
+            raise InputError(f"state at {load_words(self.load)}: has no fields to draw, of the "
+                             "states before a restart only the last one's are kept")
         return render(self.scene, self, file)
 
 

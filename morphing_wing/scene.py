@@ -48,6 +48,8 @@ class Scene(ABC):
         How often the modelled part stands in the whole: 2 for a half model.
     contact
         What may touch; None: nothing does, or its forces are left out.
+    watch
+        Called with each new state, to add to its measures; see `morphing_wing.limits.Limits`.
     """
 
     name = "scene"
@@ -64,6 +66,7 @@ class Scene(ABC):
         self.fidelity = fidelity
         self.comm = comm or MPI.COMM_WORLD
         self.loads: dict[str, Any] = {}
+        self.watch: list[Callable[[State], None]] = []
         self._in_use: tuple[str, ...] | None = None
         self._load = dict.fromkeys(self.load_names, 0.0)
         self._work = ExternalWork(self.led)
@@ -193,7 +196,7 @@ class Scene(ABC):
         """Measure the present state."""
         factor = self.newton.factor if self.newton.factor.exists else self.linearise()
         self._work.add(load, self._conjugates(), compliance(self, factor, self._work.names))
-        return State(
+        state = State(
             load=dict(load),
             measures=self._measures(),
             newton_iterations=result.iterations,
@@ -204,6 +207,9 @@ class Scene(ABC):
             requested=requested,
             fields={b.function.name: b.function.x.array.copy() for b in self.kept_blocks},
         )
+        for measure in self.watch:
+            measure(state)
+        return state
 
     def present(self) -> State:
         """Return the state in which the scene stands, converged before."""

@@ -75,10 +75,14 @@ class SceneFile:
     fidelity: str
 
     def build(self, comm: Any = None) -> Any:
-        """Build the scene with its mesh, on all ranks of ``comm`` (default: all there are)."""
+        """Build the scene, whose states tell of its limits, on all ranks of ``comm`` (None: all)."""
         module = importlib.import_module(f"morphing_wing.{self.scene}")  # loads DOLFINx
+        from morphing_wing.limits import Limits
+
         scene = getattr(module, self.scene.capitalize())
-        return scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm)
+        built = scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm)
+        built.watch.append(Limits(built))
+        return built
 
     def run(self, scene: Any, **options: Any) -> Any:
         """Lead the built scene through the loads; ``options`` as its load method has."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from .newton import NewtonResult
 from .path import State
+from .targets import load_words
 
 Load = Mapping[str, float]
 
@@ -137,7 +138,7 @@ def follow(
                 scene.set_unknowns(last)
                 scene.set_load(here)
                 if step / 2 < stepping.smallest:
-                    return states, False, f"stopped after {_words(here)}: {result.reason}"
+                    return states, False, f"stopped after {load_words(here)}: {result.reason}"
                 if on_cut is not None:
                     on_cut(load, result.reason)
                 step /= 2
@@ -163,11 +164,3 @@ def _longest(way: Load, stepping: Stepping) -> float:
     parts = [limits[name] / abs(change) for name, change in way.items()
              if name in limits and change != 0.0]
     return min([1.0, *parts])
-
-
-def _words(load: Load) -> str:
-    names = (name.rsplit("_", 1) for name in load)
-    return ", ".join(
-        f"{name} = {value:.6g} {unit}" for (name, unit), value in zip(names, load.values(),
-                                                                      strict=True)
-    )

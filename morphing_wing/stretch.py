@@ -1,4 +1,4 @@
-"""Largest principal stretch at the nodes of a displacement, by the element's shape functions."""
+"""Principal stretches at the nodes of a displacement, by the element's shape functions."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from functools import lru_cache
 import basix
 import numpy as np
 
-__all__ = ["nodal_stretch"]
+__all__ = ["nodal_stretches"]
 
 _SIMPLICES = {"interval": 1, "triangle": 2, "tetrahedron": 3}
 _BOXES = {"quadrilateral": 2, "hexahedron": 3}
 
 
-def nodal_stretch(
+def nodal_stretches(
     cell: str, nodes: np.ndarray, points: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
-    r"""Return the largest principal stretch at each point, the mean over the cells that meet there.
+    r"""Return the two largest principal stretches at points, means over the cells that meet there.
 
     With the tangents of a cell before and after,
     :math:`A_{i\alpha} = \sum_a X_{ai} N_{a,\alpha}` and
@@ -37,7 +37,7 @@ def nodal_stretch(
 
     Returns
     -------
-    (n_points,) array, 1 where nothing is stretched.
+    (n_points, 2) array, the largest first; 1 where nothing is stretched, and for lines the second.
     """
     derivatives = _derivatives(cell, nodes.shape[1])
     before = np.einsum("cai,pxa->cpix", points[nodes], derivatives)
@@ -46,9 +46,13 @@ def nodal_stretch(
     # L^-1 (a^T a) L^-T with metric = L L^T is symmetric and has the same eigenvalues.
     inverse = np.linalg.inv(np.linalg.cholesky(metric))
     squares = inverse @ (np.swapaxes(after, -1, -2) @ after) @ np.swapaxes(inverse, -1, -2)
-    stretch = np.sqrt(np.linalg.eigvalsh(squares)[..., -1].clip(min=0.0))
-    total = np.bincount(nodes.ravel(), weights=stretch.ravel(), minlength=len(points))
-    return total / np.bincount(nodes.ravel(), minlength=len(points)).clip(min=1)
+    stretches = np.sqrt(np.linalg.eigvalsh(squares).clip(min=0.0))[..., :-3:-1]
+    found = np.ones((len(points), 2))
+    count = np.bincount(nodes.ravel(), minlength=len(points)).clip(min=1)
+    for i in range(stretches.shape[-1]):
+        values = stretches[..., i].ravel()
+        found[:, i] = np.bincount(nodes.ravel(), weights=values, minlength=len(points)) / count
+    return found
 
 
 @lru_cache

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import blas
+from .passed import passed
 
 if TYPE_CHECKING:
     from morphing_wing.path import Path
@@ -28,7 +29,8 @@ def summary(path: Path) -> dict[str, Any]:
     scene has no such load, None where it has no such angle. The other columns of the table stand
     beside them. ``contact_from`` is the index of the first step whose skin passes through itself or
     a rib for want of contact forces, ``touching_from`` of the first step in which something presses
-    on something; None if there is none.
+    on something; None if there is none. ``passed`` says which limits of the materials were passed
+    and from which load on, where they were measured.
     """
     table = path.table().drop(columns=["step_seconds"], errors="ignore")
     steps = len(path)
@@ -48,6 +50,7 @@ def summary(path: Path) -> dict[str, Any]:
         "steps": steps,
         "contact_from": in_contact[0] if in_contact else None,
         "touching_from": touching[0] if touching else None,
+        "passed": passed(path),
         **arrays,
         "parameters": plain(path.scene.description()),
         "versions": versions(),

@@ -51,3 +51,9 @@ def load_targets(
         raise InputError(f"loads have lengths {sizes}: must be equal, or 1") from None
     rows = np.stack(table, axis=1)
     return [dict(zip(names, map(float, row), strict=True)) for row in rows]
+
+
+def load_words(load: Mapping[str, float]) -> str:
+    """Return a load in words: ``upper = 0.02 MPa, lower = 0 MPa``."""
+    named = ((*name.rsplit("_", 1), value) for name, value in load.items())
+    return ", ".join(f"{word} = {value:.6g} {UNITS[unit]}".rstrip() for word, unit, value in named)

@@ -196,7 +196,7 @@ def test_a_missing_or_broken_file_is_refused_in_one_sentence(interrupted, tmp_pa
 @pytest.mark.quick
 def test_a_state_from_before_the_restart_tells_why_it_cannot_be_drawn(interrupted, tmp_path):
     resumed = inflate(spar(), resume=interrupted)
-    with pytest.raises(InputError, match="state at upper_MPa = 0.01, lower_MPa = 0: has no fields"):
+    with pytest.raises(InputError, match="state at upper = 0.01 MPa, lower = 0 MPa: has no fields"):
         resumed[0].render(tmp_path / "state.png")
 
 
