@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -53,7 +54,7 @@ def plot_path(path: Path, file: str | os.PathLike) -> pathlib.Path:
 
     Full lines are rotations of the tip face, thin ones with open markers the deflection line;
     markers stand at the loads asked for; from where the skin passes through itself or a rib the
-    curve is dashed.
+    curve is dashed. Where volumes are given, the pressure found stands between.
 
     Parameters
     ----------
@@ -64,8 +65,11 @@ def plot_path(path: Path, file: str | os.PathLike) -> pathlib.Path:
     """
     table = path.table()
     load = _load_column(table, path.scene.primary_load)
+    filled = load.endswith("_mm3")
+    why = [] if path.converged else textwrap.wrap(path.reason, 88)
     with matplotlib.rc_context(STYLE):
-        figure, (above, energy) = _figure((7.6, 7.2), rows=2)
+        figure, (above, *pressure, energy) = (
+            _figure((7.6, 9.4), rows=3) if filled else _figure((7.6, 7.2), rows=2))
         angles = _present(table, ANGLES)
         for number, angle in enumerate(angles):
             line, symbol, what = ANGLES[angle]
@@ -78,10 +82,12 @@ def plot_path(path: Path, file: str | os.PathLike) -> pathlib.Path:
         _finish(above, table, [ANGLES[angle][1] for angle in angles])
         above.set_title(f"{path.scene.name.capitalize()}, {path.scene.fidelity}, "
                         f"{path.scene.dofs:,} unknowns",
-                        loc="left", pad=6 if path.converged else 22)
-        if not path.converged:
-            above.annotate(f"stopped: {path.reason}", (0.0, 1.0), (0, 6), "axes fraction",
+                        loc="left", pad=6 + 15 * len(why))
+        if why:
+            above.annotate("\n".join(why), (0.0, 1.0), (0, 6), "axes fraction",
                            textcoords="offset points", color="#a00000", fontsize=9)
+        if filled:
+            _pressure(pressure[0], table, load)
         _cost(energy, table, load)
         return save_figure(figure, file)
 
@@ -135,7 +141,7 @@ def _figure(size: tuple[float, float], rows: int) -> tuple[Figure, list[Axes]]:
 
     figure = Figure(figsize=size, dpi=150, layout="constrained")  # no pyplot, no display
     FigureCanvasAgg(figure)
-    ratios = [2.2, 1.0][:rows]
+    ratios = [2.2, *[1.0] * (rows - 1)]
     axes = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=ratios)
     return figure, list(axes[:, 0])
 
@@ -181,6 +187,23 @@ def _finish(axes: Axes, table: pd.DataFrame, symbols: list[str]) -> None:
         axes.plot([], [], color="#666", linestyle=(0, (4, 2)),
                   label="skin passes through itself or a rib: no contact forces")
     if axes.get_legend_handles_labels()[1]:
+        axes.legend(loc="best", fontsize=9.5)
+
+
+def _pressure(axes: Axes, table: pd.DataFrame, load: str) -> None:
+    """Draw the pressure against the volume: dashed where it falls, which no supply would hold."""
+    x = table[load].to_numpy(float) * AXES[load][0]
+    y = 1000.0 * table["pressure_MPa"].to_numpy(float)
+    falling = np.append(False, np.diff(y) < 0.0)
+    axes.plot(x, np.where(falling, np.nan, y), color="#222", marker="o", markersize=3.5)
+    axes.plot(x, np.where(falling | np.append(falling[1:], False), y, np.nan), color="#222",
+              linestyle=(0, (4, 2)), marker="o", markersize=3.5,
+              label="unstable under given pressure" if falling.any() else None)
+    unstable = table["negative_pivots"].to_numpy() > 0
+    axes.plot(x[unstable], y[unstable], "x", color="#a00000",
+              label="unstable under given volume" if unstable.any() else None)
+    axes.set_ylabel("pressure, kPa")
+    if falling.any() or unstable.any():
         axes.legend(loc="best", fontsize=9.5)
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Progress"]
 
-# Column of a load -> (factor to the printed unit, heading). Only loads that the scene has appear.
+# Column of a load -> (factor to the printed unit, heading). Only those that a scene has appear.
 _LOADS = {
     "upper_MPa": (1000.0, "upper kPa"), "lower_MPa": (1000.0, "lower kPa"),
     "upper_mm3": (1.0, "upper mm^3"), "lower_mm3": (1.0, "lower mm^3"),
@@ -58,10 +58,9 @@ class Progress:
             headings = [_LOADS[c][1] if c in _LOADS else _ANGLES[c] for c in columns]
             self._print(_row("step", [*headings, "iterations", "energy N mm", "neg. piv.", "s"]),
                         "bold")
-        values = [
-            f"{state.load[c] * _LOADS[c][0]:.4g}" if c in _LOADS else f"{state.measures[c]:.3f}"
-            for c in columns
-        ]
+        found = state.measures | state.load  # filled chambers' pressures are measured
+        values = [f"{found[c] * _LOADS[c][0]:.4g}" if c in _LOADS else f"{found[c]:.3f}"
+                  for c in columns]
         values += [f"{state.newton_iterations}", f"{state.energy_Nmm:.5g}",
                    f"{state.negative_pivots}", f"{state.step_seconds:.1f}"]
         mark = "" if state.requested else "  in between"

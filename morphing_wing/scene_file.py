@@ -75,7 +75,7 @@ class SceneFile:
     fidelity: str
 
     def build(self, comm: Any = None) -> Any:
-        """Build the scene, whose states tell of its limits, on all ranks of ``comm`` (None: all)."""
+        """Build the scene on all ranks of ``comm`` (None: all); its states tell of its limits."""
         module = importlib.import_module(f"morphing_wing.{self.scene}")  # loads DOLFINx
         from morphing_wing.limits import Limits
 
