@@ -61,6 +61,9 @@ class Elastomer:
         thin: Sequence[str] = (),
         prestretch: tuple[float, float] | None = None,
     ) -> None:
+        if element.pressure is None and np.isinf(material.bulk):
+            raise InputError(f"bulk = inf MPa: must be finite for element {element.name!r}, which "
+                             "has no pressure of its own")
         self.comm, self.grid, self.material, self.element = comm, grid, material, element
         self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
         self._tag_faces()
@@ -101,11 +104,13 @@ class Elastomer:
     @cached_property
     def energy(self) -> Any:
         """Stored energy in N mm, a UFL functional."""
+        # Constants, so that another material of this kind compiles nothing.
+        coefficients = [compat.constant(self.mesh, c) for c in self.material.coefficients]
         total: Any = 0
         for F, (dx, dx_volumetric) in zip(
             self._gradients(self.function), self._measures(), strict=True
         ):
-            total = total + yeoh_energy(F, self.material.coefficients) * dx
+            total = total + yeoh_energy(F, coefficients) * dx
             total = total + self._volumetric_density(F) * dx_volumetric
         return total
 

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import numbers
 from dataclasses import dataclass
 
@@ -35,7 +36,8 @@ class Yeoh:
     coefficients
         C10, C20, ... in MPa; the first must be positive, for the initial shear modulus is 2 C10.
     bulk
-        Bulk modulus kappa in MPa; None: 1000 times the initial shear modulus.
+        Bulk modulus kappa in MPa; None: 1000 times the initial shear modulus; math.inf: exactly
+        incompressible, which elements without a pressure of their own refuse.
     density
         In kg/m^3, greater than 0; matters to gravity and modes. Dragon Skin 30's unless given.
 
@@ -64,7 +66,9 @@ class Yeoh:
         shear = 2.0 * coefficients[0]
         require(shear > 0, "initial shear modulus 2 C10", shear, "MPa", "greater than 0 MPa")
         bulk = BULK_PER_SHEAR * shear if self.bulk is None else self.bulk
-        require(is_number(bulk) and bulk > 0, "bulk", bulk, "MPa", "greater than 0 MPa")
+        if bulk != math.inf:
+            require(is_number(bulk) and bulk > 0, "bulk", bulk, "MPa",
+                    "greater than 0 MPa (math.inf: incompressible)")
         object.__setattr__(self, "coefficients", coefficients)
         object.__setattr__(self, "bulk", float(bulk))
         _check_density(self)
