@@ -104,7 +104,7 @@ def cell_facets(mesh: Any) -> np.ndarray:
     mesh.topology.create_connectivity(tdim - 1, tdim)
     connectivity = mesh.topology.connectivity(tdim, tdim - 1)
     n_cells = mesh.topology.index_map(tdim).size_local + mesh.topology.index_map(tdim).num_ghosts
-    return connectivity.array.reshape(n_cells, -1)
+    return connectivity.array.reshape(n_cells, -1) if n_cells else np.empty((0, 1), np.int32)
 
 
 # -- spaces -----------------------------------------------------------------------------------

@@ -194,7 +194,7 @@ def _pressure(axes: Axes, table: pd.DataFrame, load: str) -> None:
     """Draw the pressure against the volume: dashed where it falls, which no supply would hold."""
     x = table[load].to_numpy(float) * AXES[load][0]
     y = 1000.0 * table["pressure_MPa"].to_numpy(float)
-    falling = np.append(False, np.diff(y) < 0.0)
+    falling = np.append(False, np.diff(y) * np.diff(x) < 0.0)
     axes.plot(x, np.where(falling, np.nan, y), color="#222", marker="o", markersize=3.5)
     axes.plot(x, np.where(falling | np.append(falling[1:], False), y, np.nan), color="#222",
               linestyle=(0, (4, 2)), marker="o", markersize=3.5,

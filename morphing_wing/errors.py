@@ -63,7 +63,9 @@ def is_count(value: object) -> bool:
 
 def is_finite(value: Any) -> bool:
     """Whether no number in ``value`` is NaN or infinite; what is not a number counts as finite."""
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
         return all(is_finite(item) for item in value)
     try:
         return math.isfinite(value)

@@ -60,7 +60,7 @@ class FilledChambers:
         if filling not in FILLINGS:
             raise InputError(f"filled = {filling!r}: must be None or one of {', '.join(FILLINGS)}")
         self.filling, self._body, self._part = filling, body, part
-        self._in_use: list[str] = []
+        self._in_use: list[str] | None = None
         self._led: dict[str, list[LedLoad]] = {}
         self._supplied: dict[str, list[np.ndarray]] = {}
         self._volumes: dict[str, list[Any]] = {}
@@ -92,8 +92,18 @@ class FilledChambers:
         """Return of each load in use its constants, and the potentials of all pressures.
 
         A row that is not in use is open: there is no pressure in it.
+
+        Raises
+        ------
+        InputError
+            If other rows were in use before.
         """
-        self._in_use = [name.removesuffix("_mm3") for name in in_use]
+        rows = [name.removesuffix("_mm3") for name in in_use]
+        if self._in_use not in (None, rows):
+            raise InputError(
+                f"rows filled = {', '.join(rows) or 'none'}: must be {', '.join(self._in_use)} "
+                "as before; another spar may be filled otherwise")
+        self._in_use = rows
         loads: dict[str, list[Any]] = {}
         potentials: list[Any] = []
         for row, leds in self._led.items():
@@ -131,9 +141,9 @@ class FilledChambers:
                 continue
             grown = self._volumes_now(row) - self._at_rest[row]
             mean = float(grown.mean())
-            filled = mean > 1e-6 * self._at_rest[row].mean()
-            found[f"{row}_largest_chamber"] = float(grown.argmax() + 1) if filled else 0.0
-            found[f"{row}_largest_share"] = float(grown.max()) / mean if filled else 1.0
+            filled = abs(mean) > 1e-6 * self._at_rest[row].mean()
+            found[f"{row}_largest_chamber"] = float((grown / mean).argmax() + 1) if filled else 0.0
+            found[f"{row}_largest_share"] = float((grown / mean).max()) if filled else 1.0
         return found
 
     def localised(self, measures: Mapping[str, float]) -> str:

@@ -23,7 +23,7 @@ from .system import EquilibriumSystem
 
 
 class LedLoad:
-    """A load as an unknown, seen by all cells of a body.
+    """A load as an unknown, seen by cells of a body.
 
     Parameters
     ----------

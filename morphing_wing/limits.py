@@ -5,6 +5,8 @@ from __future__ import annotations
 import weakref
 from typing import Any
 
+import numpy as np
+
 from .beam_stress import BeamStress
 from .fields import scene_grids
 from .path import Path, State
@@ -21,7 +23,8 @@ class Limits:
     ``largest_stretch`` is the largest principal stretch at the elastomer's nodes, which at the
     chambers' re-entrant corners grows as the mesh is refined, and ``largest_stretch_x_mm``, ``y``,
     ``z`` where that is before the deformation. ``material_stability`` is the least of
-    `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. ``rib_stress_MPa``,
+    `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
+    built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
     von Mises' stress in the bars, is there where a wing has ribs. `morphing_wing.passed.passed`
     says in words from which load on a limit is passed.
 
@@ -58,12 +61,16 @@ class Limits:
         if grid is None:
             return None
         first, second = grid.point_data["stretch"], grid.point_data["second_stretch"]
-        most = int(first.argmax())
-        found = {"largest_stretch": float(first[most])}
+        found = {"largest_stretch": float(first.max())}
+        # Of places that differ by rounding, one that does not depend on it.
+        most = np.round(grid.points[first >= first.max() - 1e-9], 6)
+        place = most[np.lexsort(most.T)[0]]
         found |= {f"largest_stretch_{axis}_mm": float(x)
-                  for axis, x in zip("xyz", grid.points[most], strict=True)}
-        stability = self._scene.body.material.stability(first, second)
-        return found | {"material_stability": float(stability.min())}
+                  for axis, x in zip("xyz", place, strict=True)}
+        if self._scene.body.prestretch is None:
+            stability = self._scene.body.material.stability(first, second)
+            found["material_stability"] = float(stability.min())
+        return found
 
 
 def actuated(
@@ -80,10 +87,10 @@ def actuated(
     keep_fields
         Whether states keep their fields.
     """
-    limits = Limits(wing)
+    if not any(isinstance(measure, Limits) for measure in wing.watch):
+        wing.watch.append(Limits(wing))
 
     def on_step(state: State) -> None:
-        limits(state)
         if not keep_fields:
             state.fields = {}
         if progress:

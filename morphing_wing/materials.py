@@ -90,6 +90,10 @@ class Yeoh:
         ----------
         first, second
             Principal stretches, the third is 1 over their product; of one shape.
+
+        Returns
+        -------
+        Array of that shape, without unit.
         """
         a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
         excess = a**2 + b**2 + (a * b) ** -2 - 3.0

@@ -146,17 +146,18 @@ class Newton:
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
-        if reason > 0 and (self.factor.amount > 0.0 or self.factor.factorisations == 0):
-            # The last factor was of K + a M, which hides what K itself says of stability; or there
-            # is none yet, where the first state is at rest.
-            self._assemble(self._snes.getIterationNumber())
+        iterations = self._snes.getIterationNumber()
+        if reason > 0 and (self.factor.amount > 0.0 or iterations == 0):
+            # The last factor was of K + a M, which hides what K itself says of stability; or it is
+            # of another state, perhaps one of a solve that failed.
+            self._assemble(iterations)
             self.factor.inspect(self.system.matrix)
         if reason > 0:
             self.factor.tolerated = max(self.factor.surplus, 0)
         return NewtonResult(
             converged=reason > 0,
             reason=self._words(reason),
-            iterations=self._snes.getIterationNumber(),
+            iterations=iterations,
             residual=self._snes.getFunctionNorm(),
             negative_pivots=self.factor.surplus,
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from .materials import FRACTURE_STRETCH, YIELD_MPA
@@ -16,7 +16,7 @@ __all__ = ["passed"]
 _Measures = Mapping[str, float]
 
 
-def passed(states: Iterable[State]) -> list[str]:
+def passed(states: Sequence[State]) -> list[str]:
     """Return a sentence for each limit that states have passed, at the first load beyond it.
 
     Parameters

@@ -158,7 +158,7 @@ class Rib(Scene):
     def _newton(self) -> Newton:
         return Newton(self.system, self._options_prefix, before_tangent=self.before_tangent)
 
-    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         mesh, w = self.beams.mesh, self.beams.function
         position = ufl.SpatialCoordinate(mesh) + displacement(w)
         potentials = {

@@ -124,8 +124,7 @@ class Scene(ABC):
                 seconds = spent + time.perf_counter() - clock
                 restart_files.write(restart, self, done + states, standing, seconds)
 
-        in_use = tuple(n for n in self.load_names
-                       if self._load[n] != 0.0 or any(t[n] != 0.0 for t in targets))
+        in_use = self._wanted(loads, targets)
         if in_use != self._in_use:
             self._use(in_use)
         if earlier is not None:
@@ -140,6 +139,13 @@ class Scene(ABC):
             self._load = dict(states[-1].load)
         seconds = spent + time.perf_counter() - clock
         return Path(done + states, self, converged, reason, seconds)
+
+    def _wanted(
+        self, loads: Mapping[str, Any], targets: Sequence[Mapping[str, float]]
+    ) -> tuple[str, ...]:
+        """Return the loads to bring into use: those that are or become other than zero."""
+        return tuple(n for n in self.load_names
+                     if self._load[n] != 0.0 or any(t[n] != 0.0 for t in targets))
 
     # -- for the stepping ---------------------------------------------------------------------
 
@@ -193,9 +199,14 @@ class Scene(ABC):
     def state(
         self, load: Mapping[str, float], result: NewtonResult, seconds: float, requested: bool
     ) -> State:
-        """Measure the present state."""
+        """Measure the present state, and add the work on the way to it."""
         factor = self.newton.factor if self.newton.factor.exists else self.linearise()
         self._work.add(load, self._conjugates(), compliance(self, factor, self._work.names))
+        return self._measured(load, result, seconds, requested)
+
+    def _measured(
+        self, load: Mapping[str, float], result: NewtonResult, seconds: float, requested: bool
+    ) -> State:
         state = State(
             load=dict(load),
             measures=self._measures(),
@@ -214,7 +225,7 @@ class Scene(ABC):
     def present(self) -> State:
         """Return the state in which the scene stands, converged before."""
         as_it_is = NewtonResult(True, "converged", 0, 0.0, self.newton.factor.surplus)
-        return self.state(self._load, as_it_is, 0.0, requested=True)
+        return self._measured(self._load, as_it_is, 0.0, requested=True)
 
     def show(self, state: State) -> None:
         """Copy a state's fields into the functions."""
@@ -266,8 +277,8 @@ class Scene(ABC):
         """Return the solver of this scene."""
 
     @abstractmethod
-    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
-        """Return energies (UFL functionals) and tangent corrections (one a block).
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
+        """Return energies (UFL functionals) and tangent corrections, see `set_energies`.
 
         Sets ``self.loads``: of each load in use the constants that carry it.
         """

@@ -41,8 +41,8 @@ def sensitivities(scene: Scene, loads: Sequence[str]) -> dict[str, dict[str, flo
     Returns
     -------
     dict
-        Of each load, of each measure that is an angle (``..._deg``), degrees per MPa, N or N mm.
-        Not a number where the tangent cannot be factorised.
+        Of each load, of each measure that is an angle (``..._deg``), degrees per MPa, N, N mm or
+        mm^3. Not a number where the tangent cannot be factorised.
     """
     unused = [name for name in loads if name not in scene.loads]
     if unused:

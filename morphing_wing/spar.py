@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -91,6 +91,8 @@ class Spar(Scene):
         filled: str | None = None,
     ) -> None:
         self.led = filled is not None
+        if self.led:
+            self.load_names, self.primary_load = ("upper_mm3", "lower_mm3"), "upper_mm3"
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         super().__init__(fidelity, comm)
         self.geometry, self.material = geometry, material
@@ -107,9 +109,6 @@ class Spar(Scene):
         blocks = [part.block for part in self._parts()]
         self._filled = None
         if filled is not None:
-            self.load_names = ("upper_mm3", "lower_mm3")
-            self._load = dict.fromkeys(self.load_names, 0.0)
-            self.primary_load = "upper_mm3"
             self._filled = FilledChambers(
                 self.body, geometry.chamber_of, filled, 1.0 / self.multiplicity)
             # Unknowns before what stands for others'.
@@ -174,18 +173,20 @@ class Spar(Scene):
         ----------
         upper, lower
             Volumes in mm^3 beyond those at rest, of a whole row: a number, a sequence of them, or
-            None (an open row, without pressure).
+            None: an open row, without pressure. What is open or filled at first remains so.
         on_step, on_cut, restart, resume
             See `Scene.follow`.
 
         Raises
         ------
         InputError
-            If the spar was not made with ``filled``, or a volume is not a finite number.
+            If the spar was not made with ``filled``, a volume is not a finite number, or a row was
+            open before that is to be filled now, or the other way round.
         """
         if self._filled is None:
             raise InputError(f"filled = None: must be one of {', '.join(FILLINGS)} to fill a spar")
         loads = {"upper_mm3": upper, "lower_mm3": lower}
+        self.primary_load = next((n for n, v in loads.items() if v is not None), "upper_mm3")
         path = self.follow(loads, on_step, on_cut, restart, resume)
         if len(path) and not path.converged:
             path.reason += self._filled.localised(path[-1].measures)
@@ -208,6 +209,13 @@ class Spar(Scene):
             "contact": self.contact is not None,
         } | ({} if self._filled is None else {"filled": self._filled.filling})
 
+    def _wanted(
+        self, loads: Mapping[str, Any], targets: Sequence[Mapping[str, float]]
+    ) -> tuple[str, ...]:
+        if self._filled is None:
+            return super()._wanted(loads, targets)
+        return tuple(name for name in self.load_names if loads[name] is not None)
+
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
@@ -223,7 +231,7 @@ class Spar(Scene):
             admissible=self.admissible if self.contact is not None else None,
         )
 
-    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         if self._filled is None:
             self._chambers = Chambers(self.body, in_use)
             self.loads, potentials = self._chambers.pressures, self._chambers.potentials

@@ -47,7 +47,7 @@ def _verdicts(problem: Problem) -> list[bool]:
     from morphing_wing.verification import NoEquilibriumError
 
     typer.echo(f"\n{problem.title} ({problem.name}; {problem.source})")
-    typer.echo(f"  {'':58} {'value':>12} {'reference':>12} {'error':>9} {'allowed':>8}")
+    typer.echo(f"  {'':72} {'value':>12} {'reference':>12} {'error':>9} {'allowed':>8}")
     clock, verdicts = time.perf_counter(), []
     try:
         for check in problem.run(MPI.COMM_WORLD):
@@ -63,5 +63,5 @@ def _verdicts(problem: Problem) -> list[bool]:
 
 def _row(check: Check) -> str:
     name = check.name + (f" in {check.unit}" if check.unit else "")
-    return (f"  {name:58} {check.value:12.6g} {check.reference:12.6g} {check.error:9.1e} "
+    return (f"  {name:72} {check.value:12.6g} {check.reference:12.6g} {check.error:9.1e} "
             f"{check.tolerance:8.1e} {'holds' if check.holds else 'DOES NOT HOLD'}")

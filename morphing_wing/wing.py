@@ -249,7 +249,7 @@ class Wing(TrimmedWing):
         displacements[:n] = self.body.is_displacement()
         return Regularisation(mass, displacements)
 
-    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], list[Any] | None]:
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         self._chambers = Chambers(self.body, in_use)
         self.loads = dict(self._chambers.pressures)
         energies = [part.energy for part in self._parts()] + self._chambers.potentials

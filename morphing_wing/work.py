@@ -25,13 +25,11 @@ class ExternalWork:
     is monotone (Fritsch and Carlson 1980, SIAM J. Numer. Anal. 17, 238). Near a limit point, where
     the compliance has no bound, this is what keeps the sum sound.
 
-    Where volumes are given and pressures are unknowns, :math:`\lambda` are the volumes, q minus the
-    pressures, and what is wanted is :math:`-\int q \cdot d\lambda`; a pressure may fall there.
-
     Parameters
     ----------
     led
-        Whether it is so.
+        Whether volumes are given and pressures are unknowns: :math:`\lambda` are the volumes then,
+        q minus the pressures, and the work is :math:`-\int q \cdot d\lambda`; a pressure may fall.
 
     Attributes
     ----------

@@ -29,8 +29,12 @@ class Cantilever:
 
     Parameters
     ----------
-    comm, cells, length, direction, section, material
-        Where; number of beams, length in mm and unit vector from the origin; section, material.
+    comm, cells
+        Communicator; number of beams.
+    length, direction
+        Length in mm, and unit vector along the bar from the origin.
+    section, material
+        Of all beams.
 
     Attributes
     ----------

@@ -20,7 +20,7 @@ __all__ = ["cook", "tip_deflection"]
 MATERIAL = Yeoh((80.1938 / 2.0,), bulk=400942.0)
 FORCE, EDGE = 100.0, 16.0  # N a mm of thickness, mm
 CONVERGED = 6.93186
-"""Deflection in mm with Q2-Q1 at 32 a side."""
+"""Deflection in mm of another code with Q2-Q1 at 32 a side."""
 
 
 def _rise(body: Elastomer, force: Any) -> Any:
@@ -42,6 +42,6 @@ def cook(comm: MPI.Comm) -> Iterator[Check]:
     """Yield the deflection of Q2-Q1 on three meshes, and of the default element on the finest."""
     for n, known in ((8, 6.92735), (16, 6.93110), (32, CONVERGED)):
         yield Check(f"Q2/Q1, {n} a side: deflection", tip_deflection("Q2/Q1", n, comm), known, "mm",
-                    1e-5)
+                    7e-7)
     yield Check("Q2/P1disc, 32 a side: deflection", tip_deflection("Q2/P1disc", 32, comm),
                 CONVERGED, "mm", 1e-3)

@@ -72,18 +72,12 @@ class Equilibrium:
         self.system = EquilibriumSystem(comm, blocks)
         if self._led is not None:
             self._led.number(self.system)
-        self._energies = energies
         self.system.set_energies(energies, [self.body.tangent_correction])
         iterate = self.body.iterate
         self._newton = Newton(
             self.system, "verification_",
             expected_negative=self.body.n_pressures() + (self._led is not None),
             before_tangent=iterate.before_tangent if iterate else None)
-
-    def add(self, energy: Any) -> None:
-        """Add a potential, a UFL functional of the body's function."""
-        self._energies.append(energy)
-        self.system.set_energies(self._energies, [self.body.tangent_correction])
 
     def solve(self, force: float = 1e-3) -> NewtonResult:
         """Solve to a residual of 1e-9 times a force in N, and take the state as converged.

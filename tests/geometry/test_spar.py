@@ -117,3 +117,26 @@ def test_lengths_that_cannot_be_built_are_refused_in_one_sentence(name, value):
 def test_numbers_of_cells_that_cannot_be_built_are_refused_in_one_sentence(value):
     with pytest.raises(InputError, match=r"^n_cells = .*: must be a whole number of at least 1$"):
         dataclasses.replace(SPAR, n_cells=value)
+
+
+@pytest.mark.quick
+def test_split_meshing_has_the_breakpoints_of_the_whole_one_and_their_middles():
+    plain = SparMeshing.plain()
+    halves = plain.split(2)
+    np.testing.assert_allclose(halves.cavity_width[::2], plain.cavity_width)
+    np.testing.assert_allclose(
+        halves.cavity_width[1::2], 0.5 * (plain.cavity_width[:-1] + plain.cavity_width[1:]))
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("half", [True, False])
+def test_each_chamber_has_the_facets_around_it(half):
+    geometry = SparGeometry.validation(3)
+    grid = geometry.mesh(SparMeshing.plain(), half)
+    chamber = geometry.chamber_of(grid.beyond("upper_chambers")[:, 2])
+    assert np.bincount(chamber).tolist() == [len(chamber) // 3] * 3
+    for i in range(3):
+        corners = grid.facet_points("upper_chambers")[chamber == i].reshape(-1, 3)
+        start = geometry.wall_length + i * (geometry.wall_length + geometry.cavity_length)
+        assert corners[:, 2].min() == pytest.approx(start)
+        assert corners[:, 2].max() == pytest.approx(start + geometry.cavity_length)

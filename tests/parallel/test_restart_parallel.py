@@ -74,6 +74,17 @@ def test_spar_begun_on_some_ranks_ends_the_same_on_others(first, second, folder)
     resumed_elsewhere(spar, first, second, folder)
 
 
+@pytest.mark.quick
+@PAIRS
+@pytest.mark.parametrize("filled", ["shared", "separate"])
+def test_filled_spar_begun_on_some_ranks_ends_the_same_on_others(filled, first, second, folder):
+    def fill(comm, **options):
+        scene = Spar(SparGeometry.validation(2), fidelity="draft", comm=comm, filled=filled)
+        return scene.fill(upper=[500.0, 1500.0], **options)
+
+    resumed_elsewhere(fill, first, second, folder)
+
+
 @PAIRS
 def test_rib_begun_on_some_ranks_ends_the_same_on_others(first, second, folder):
     resumed_elsewhere(rib, first, second, folder)

@@ -72,3 +72,14 @@ def test_a_single_state_and_a_stopped_path_are_drawn(path, tmp_path):
     one = Path([State({"upper_MPa": 0.01}, {"span_angle_deg": 2.0}, 3, 1.0, 1.0, 0, 0.1, True)],
                path.scene, False, "Newton diverged", 1.0)
     assert one.plot(tmp_path / "one.png").stat().st_size > 10_000
+
+
+def test_pressure_of_filled_chambers_is_dashed_where_it_falls_while_they_grow(axes):
+    volume = np.array([0.0, 1000.0, 2000.0, 3000.0, 2000.0])
+    table = pd.DataFrame({"upper_mm3": volume, "pressure_MPa": [0.0, 0.05, 0.08, 0.07, 0.08],
+                          "negative_pivots": [0, 0, 0, 1, 0]})
+    curves._pressure(axes, table, "upper_mm3")
+    solid, dashed, unstable = axes.get_lines()
+    assert finite(solid).tolist() == [True, True, True, False, False]
+    assert finite(dashed).tolist() == [False, False, True, True, True]
+    assert unstable.get_xdata().tolist() == [3.0]

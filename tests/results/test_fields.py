@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import pyvista
 from fake_scenes import FakeScene, bent, box, line, spar_path, turned
+from scipy.spatial.transform import Rotation
 
 from morphing_wing.fields import FieldGrid, save_path
 from morphing_wing.path import Path, State
@@ -67,6 +68,15 @@ def test_stretch_of_a_rotated_uniaxial_stretch_is_the_stretch(degree):
     F = turn @ np.diag([1.3**-0.5, 1.3, 1.3**-0.5])
     u.interpolate(lambda x: (F - np.eye(3)) @ x)
     np.testing.assert_allclose(FieldGrid(u).grid().point_data["stretch"], 1.3, rtol=1e-12)
+
+
+def test_second_stretch_is_the_one_between_the_others():
+    u = box(cells=(1, 1, 1))
+    turn = Rotation.from_rotvec([0.4, -0.7, 0.3]).as_matrix()
+    u.interpolate(lambda x: turn @ (np.diag([1.2, 0.7, 1.5]) @ x) - x)
+    grid = FieldGrid(u).grid()
+    np.testing.assert_allclose(grid.point_data["stretch"], 1.5, rtol=1e-12)
+    np.testing.assert_allclose(grid.point_data["second_stretch"], 1.2, rtol=1e-12)
 
 
 def test_stretch_of_a_line_is_that_of_its_axis():
