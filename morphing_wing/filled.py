@@ -102,7 +102,7 @@ class FilledChambers:
         if self._in_use not in (None, rows):
             raise InputError(
                 f"rows filled = {', '.join(rows) or 'none'}: must be {', '.join(self._in_use)} "
-                "as before; another spar may be filled otherwise")
+                "as in the first filling of this spar (0 mm^3 seals a row as it is)")
         self._in_use = rows
         loads: dict[str, list[Any]] = {}
         potentials: list[Any] = []

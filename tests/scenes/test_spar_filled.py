@@ -120,7 +120,7 @@ def test_what_was_open_or_filled_at_first_remains_so():
     led(scene, upper=[0.0, ROW])
     led(scene, upper=0.5 * ROW)
     for other in ({"lower": 100.0}, {"upper": ROW, "lower": 0.0}):
-        with pytest.raises(InputError, match="rows filled = .*: must be upper as before"):
+        with pytest.raises(InputError, match="rows filled = .*: must be upper as in the first"):
             scene.fill(**other)
     sealed = led(spar(), upper=ROW, lower=0.0)[-1].measures
     assert sealed["lower_MPa"] != 0.0
