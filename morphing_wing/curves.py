@@ -214,7 +214,8 @@ def _cost(axes: Axes, table: pd.DataFrame, load: str) -> None:
     bars = axes.twinx()
     bars.spines["right"].set_visible(True)
     steps = np.diff(np.unique(x))
-    width = 0.5 * steps.min() if len(steps) else 0.5
+    # Seen where steps were cut, and no wall where there are few.
+    width = np.clip(0.5 * steps.min(), 0.008 * np.ptp(x), 0.05 * np.ptp(x)) if len(steps) else 0.5
     bars.bar(x, table["newton_iterations"], width=width, color="#d5dde5", zorder=0)
     bars.set_ylabel("Newton iterations", color="#7a8896")
     bars.yaxis.get_major_locator().set_params(integer=True)

@@ -59,7 +59,7 @@ class Progress:
             self._print(_row("step", [*headings, "iterations", "energy N mm", "neg. piv.", "s"]),
                         "bold")
         found = state.measures | state.load  # filled chambers' pressures are measured
-        values = [f"{found[c] * _LOADS[c][0]:.4g}" if c in _LOADS else f"{found[c]:.3f}"
+        values = [f"{found[c] * _LOADS[c][0]:.5g}" if c in _LOADS else f"{found[c]:.3f}"
                   for c in columns]
         values += [f"{state.newton_iterations}", f"{state.energy_Nmm:.5g}",
                    f"{state.negative_pivots}", f"{state.step_seconds:.1f}"]
@@ -73,7 +73,7 @@ class Progress:
         if self._console is None:
             return
         text = ", ".join(
-            f"{_LOADS[n][1].replace(' ', ' = ' + format(v * _LOADS[n][0], '.4g') + ' ', 1)}"
+            f"{_LOADS[n][1].replace(' ', ' = ' + format(v * _LOADS[n][0], '.5g') + ' ', 1)}"
             for n, v in load.items() if n in _LOADS and v != 0.0)
         self._print(f"      smaller step: {text or 'no load'}: {reason}", "yellow")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -30,15 +31,25 @@ from .system import EquilibriumSystem
 
 @dataclass(frozen=True)
 class SparFidelity:
-    """One rung of the spar's ladder: a mesh and an element."""
+    """One rung of the spar's ladder: a mesh and an element.
+
+    Attributes
+    ----------
+    meshing, element
+        The mesh and the element.
+    slender
+        Length of a chamber over the thinner of its ceiling and floor up to which the rung's error
+        was measured.
+    """
 
     meshing: SparMeshing
     element: str
+    slender: float
 
 
 FIDELITIES = {
-    "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0"),
-    "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc"),
+    "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0", slender=4.0),
+    "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc", slender=10.0),
 }
 
 
@@ -95,6 +106,8 @@ class Spar(Scene):
             self.load_names, self.primary_load = ("upper_mm3", "lower_mm3"), "upper_mm3"
         rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
         super().__init__(fidelity, comm)
+        if meshing is None:
+            self._warn_of_slender_walls(geometry, rung)
         self.geometry, self.material = geometry, material
         self.multiplicity = 2 if half else 1
         self.body = Elastomer(
@@ -118,6 +131,17 @@ class Spar(Scene):
         if self._filled is not None:
             self._filled.number(self.system)
         self._options_prefix = options_prefix
+
+    def _warn_of_slender_walls(self, geometry: SparGeometry, rung: SparFidelity) -> None:
+        """Say where a rung's mesh is too coarse for the bending of ceilings and floors."""
+        thinnest = min(geometry.top_thickness, geometry.middle_thickness)
+        ratio = geometry.cavity_length / thinnest
+        if ratio > rung.slender and self.comm.rank == 0:
+            warnings.warn(
+                f"cavity_length = {geometry.cavity_length:g} mm: is {ratio:.3g} times the thinnest "
+                f"wall above or below a chamber; {self.fidelity}'s error is known up to "
+                f"{rung.slender:g} times, beyond it may be anything: compare finer meshings",
+                stacklevel=3)
 
     def inflate(
         self,

@@ -1,6 +1,7 @@
 """The spar at the extremes of material, geometry and steps: it gets there, or says what it did."""
 
 import math
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +53,18 @@ def test_without_a_pressure_of_its_own_an_element_refuses_the_incompressible(ele
 def test_over_six_decades_of_stiffness_the_same_shape(scale):
     soft = inflated(material=Yeoh(tuple(scale * c for c in C)), pressure=scale * 0.02)
     assert angle(soft) == pytest.approx(angle(inflated()), rel=1e-12)
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("fidelity, length", [("draft", 8.0), ("standard", 20.0)])
+def test_chambers_too_long_for_a_rungs_mesh_are_warned_of(fidelity, length):
+    geometry = replace(BASE, n_cells=1, cavity_length=length)
+    with pytest.warns(UserWarning, match=f"{fidelity}'s error is known up to"):
+        Spar(geometry, fidelity=fidelity, comm=MPI.COMM_SELF)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", UserWarning)
+        Spar(BASE, fidelity=fidelity, comm=MPI.COMM_SELF)
+        Spar(geometry, meshing=SparMeshing.plain(), element="Q1/P0", comm=MPI.COMM_SELF)
 
 
 def test_a_hundred_steps_end_where_one_does():
