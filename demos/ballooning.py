@@ -64,7 +64,7 @@ told(filled("shared", 6.0), "one supply")
 # Chamber by chamber
 # ------------------
 # Filled apart, as if each had a syringe of its own, each chamber takes its part, at a pressure of
-# its own: the end chambers lie beside a wall on one side only. No chamber can run away with the
+# its own: those at the ends have no neighbour on one side. No chamber can run away with the
 # others' air, so that the spar bends much further before its silicone would tear.
 
 apart = filled("separate", 7.0)
