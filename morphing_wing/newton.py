@@ -174,13 +174,9 @@ class Newton:
         Without mass, and of the state itself, where the last factor of `solve` is that of the
         iterate before: the derivative of the residual, but for the motion of contact places.
         """
-        self.factor.inspect(self.tangent())
-        return self.factor
-
-    def tangent(self) -> PETSc.Mat:
-        """Return the tangent itself, unfactorised; see `linearise`. Collective."""
         self._assemble(0)
-        return self.system.matrix
+        self.factor.inspect(self.system.matrix)
+        return self.factor
 
     def _words(self, reason: int) -> str:
         if reason > 0:

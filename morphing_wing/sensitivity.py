@@ -66,19 +66,17 @@ def compliance(scene: Scene, factor: InertiaCholesky, loads: Sequence[str]) -> n
     The potential holds a load as :math:`-\lambda q(u)`, so that
     :math:`\partial q/\partial u = -\partial F/\partial\lambda` and
 
-    .. math:: \frac{\partial q_i}{\partial\lambda_j} = f_i \cdot K^{-1} f_j
-        = f_i \cdot u_j + f_j \cdot u_i - u_i \cdot K u_j, \qquad
-        f = -\frac{\partial F}{\partial\lambda}, \quad u = K^{-1} f.
+    .. math:: \frac{\partial q_i}{\partial\lambda_j}
+        = \frac{\partial F}{\partial\lambda_i} \cdot K^{-1} \frac{\partial F}{\partial\lambda_j}.
 
-    The last form is stationary in u, so that the factor may be that of the iterate before: what it
-    is off counts squared. One solution a load. Collective.
+    One solution a load. Collective.
 
     Parameters
     ----------
     scene
         Stands in a converged state.
     factor
-        Of its tangent there or nearby; no more to be solved with afterwards.
+        Of its tangent there.
     loads
         Names of n loads in use.
 
@@ -93,12 +91,8 @@ def compliance(scene: Scene, factor: InertiaCholesky, loads: Sequence[str]) -> n
     scene.system.push(x)
     forces = _unit_forces(scene, x, loads)
     rates = _rates(factor, forces)
-    tangent = scene.newton.tangent()
-    stiff = [tangent * rate for rate in rates]
-    work = np.array([[force.dot(rate) for rate in rates] for force in forces])
-    stored = np.array([[rate.dot(other) for other in stiff] for rate in rates])
-    found = work + work.T - stored
-    for vector in (x, *forces, *rates, *stiff):
+    found = np.array([[force.dot(rate) for rate in rates] for force in forces])
+    for vector in (x, *forces, *rates):
         vector.destroy()
     return found.reshape(len(loads), len(loads))
 
