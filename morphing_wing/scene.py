@@ -21,6 +21,7 @@ from .contact import Contact
 from .errors import InputError
 from .inertia import InertiaCholesky
 from .iterate import Iterate
+from .load_force import load_force
 from .newton import Newton, NewtonResult
 from .path import Path, State
 from .sensitivity import compliance
@@ -158,7 +159,7 @@ class Scene(ABC):
     def solve(self) -> NewtonResult:
         """Find the equilibrium of the present loads from the present state."""
         self._take_up_contact()
-        self._largest_force = max(self._largest_force, self._load_force())
+        self._largest_force = max(self._largest_force, load_force(self.system, self.loads))
         result = self.newton.solve(self._largest_force)
         iterations, rounds = result.iterations, 1
         while result.converged and self.contact is not None and self.contact.review(self.system):
@@ -325,26 +326,6 @@ class Scene(ABC):
 
     def _stored_energies(self) -> list[float]:
         return [compat.assemble_scalar(self.comm, form) for form in self._stored_forms]
-
-    def _load_force(self) -> float:
-        """Return the norm in N of what the loads contribute to the residual."""
-        system = self.system
-        x, with_loads, without = (system.x.duplicate() for _ in range(3))
-        system.push(x)
-        system.residual(x, with_loads)
-        values = {name: [float(c.value) for c in cs] for name, cs in self.loads.items()}
-        for constants in self.loads.values():
-            for constant in constants:
-                constant.value = 0.0
-        system.residual(x, without)
-        for name, constants in self.loads.items():
-            for constant, value in zip(constants, values[name], strict=True):
-                constant.value = value
-        with_loads.axpy(-1.0, without)
-        force = with_loads.norm()
-        for vector in (x, with_loads, without):
-            vector.destroy()
-        return force if np.isfinite(force) else 0.0
 
 
 def choose_fidelity(name: str, allowed: Sequence[str]) -> str:
