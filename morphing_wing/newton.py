@@ -40,7 +40,7 @@ class NewtonResult:
     ----------
     converged
         Whether the residual fell below its tolerance, or the last step to rounding: below 1e-8
-        of the unknowns' norm, where convergence is quadratic.
+        of the unknowns' norm, with 1e-10 left by its ratio to the step before.
     reason
         In words why it stopped.
     iterations
@@ -140,7 +140,7 @@ class Newton:
         """
         bury(self.system.comm)
         self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
-        self._smallest = np.inf
+        self._smallest = self._step = np.inf
         self.factor.begin()
         self.system.push(self._x)
         self._snes.solve(None, self._x)
@@ -213,9 +213,12 @@ class Newton:
             return reason.DIVERGED_LINEAR_SOLVE
         if iteration > 0:
             unregularised = self.factor.amount == 0.0
-            # Roundoff of stiff parts bounds the residual from below; then the step is what counts.
-            # Convergence is quadratic there: what is left is far below the step that was made.
-            if unregularised and step <= 1e-8 * (x_norm + 1.0):
+            # Roundoff of stiff parts bounds the residual from below; then the step is what counts,
+            # and what its ratio to the last one leaves: where contact moves that is no square.
+            last, self._step = self._step, step
+            size = x_norm + 1.0
+            known = last <= 1e-8 * size or step * min(step / last, 1.0) <= 1e-10 * size
+            if unregularised and step <= 1e-8 * size and known:
                 return reason.CONVERGED_SNORM_RELATIVE
             self.factor.relax(1e3 if residual < 0.1 * self._smallest else 10.0)
         self._smallest = min(self._smallest, residual)
