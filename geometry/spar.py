@@ -122,9 +122,14 @@ class SparGeometry:
         )
 
     @property
+    def pitch(self) -> float:
+        """Length in mm of the cell that repeats: one chamber and one wall."""
+        return self.cavity_length + self.wall_length
+
+    @property
     def length(self) -> float:
         """Span in mm: every chamber with its walls, an end wall on both sides."""
-        return self.n_cells * (self.cavity_length + self.wall_length) + self.wall_length
+        return self.n_cells * self.pitch + self.wall_length
 
     @property
     def height(self) -> float:
@@ -138,7 +143,7 @@ class SparGeometry:
 
     def chamber_of(self, z: np.ndarray) -> np.ndarray:
         """Return the number, from 0 at the root, of the chamber at each place along the span."""
-        return ((z - self.wall_length) // (self.cavity_length + self.wall_length)).astype(int)
+        return ((z - self.wall_length) // self.pitch).astype(int)
 
     def mesh(self, meshing: SparMeshing | None = None, half: bool = True) -> HexMesh:
         """Return swept hexahedra; x from the symmetry plane, y up from the middle, z from the root.
@@ -147,6 +152,31 @@ class SparGeometry:
         (x = 0) of the half model, which holds x >= 0.
         """
         parts = meshing or SparMeshing.graded()
+        cell = [(self.cavity_length, parts.cavity_length), (self.wall_length, parts.wall_length)]
+        along = breakpoints((self.wall_length, parts.wall_length), *cell * self.n_cells)
+        return self._swept(parts, along, half, ("root", "tip"))
+
+    def cell_mesh(self, meshing: SparMeshing | None = None) -> HexMesh:
+        """Return a quarter of the cell that repeats: half as wide, and half as long.
+
+        Faces as in `mesh`, but ``wall_middle`` (z = 0) and ``chamber_middle`` in place of root and
+        tip.
+        """
+        parts = meshing or SparMeshing.graded()
+        wall, cavity = parts.wall_length, parts.cavity_length
+        along = breakpoints(
+            (self.wall_length / 2, 1.0 - 2.0 * _first_half(1.0 - wall[::-1])[::-1]),
+            (self.cavity_length / 2, 2.0 * _first_half(cavity)))
+        return self._swept(parts, along, True, ("wall_middle", "chamber_middle"))
+
+    def _swept(
+        self,
+        parts: SparMeshing,
+        along: tuple[np.ndarray, np.ndarray],
+        half: bool,
+        ends: tuple[str, str],
+    ) -> HexMesh:
+        """Return the mesh of breakpoints along the span, whose odd pieces have chambers."""
         x, x_piece = breakpoints(
             (self.cavity_width / 2, parts.cavity_width), (self.side_thickness, parts.side_thickness)
         )
@@ -161,18 +191,21 @@ class SparGeometry:
             (self.cavity_height, parts.cavity_height),
             (self.top_thickness, parts.top_thickness),
         )
-        cell = [(self.cavity_length, parts.cavity_length), (self.wall_length, parts.wall_length)]
-        z, z_piece = breakpoints((self.wall_length, parts.wall_length), *cell * self.n_cells)
-
+        z, z_piece = along
         kind = np.ones((len(inside_x), len(y_piece), len(z_piece)), dtype=int)
         for row, value in ((3, -1), (1, -2)):
             kind[np.ix_(inside_x, y_piece == row, z_piece % 2 == 1)] = value
         names = {1: "elastomer", -1: "upper_chambers", -2: "lower_chambers"}
 
         def faces(midpoints: np.ndarray, normals: np.ndarray) -> dict[str, np.ndarray]:
-            named = {"root": normals[:, 2] < 0, "tip": normals[:, 2] > 0}
+            named = {ends[0]: normals[:, 2] < 0, ends[1]: normals[:, 2] > 0}
             if half:
                 named["symmetry"] = (normals[:, 0] < 0) & (np.abs(midpoints[:, 0]) < 1e-9)
             return named
 
         return swept_blocks((x, y - self.height / 2, z), kind, names, faces=faces)
+
+
+def _first_half(line: np.ndarray) -> np.ndarray:
+    """Return the breakpoints up to one half, which becomes one if it was none."""
+    return np.append(line[line < 0.5 - 1e-9], 0.5)

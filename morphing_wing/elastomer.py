@@ -48,6 +48,13 @@ class Elastomer:
         Regions that bend like plates: where an enhanced element has strains of its own.
     prestretch
         Stretches along x and z with which the thin regions are built in; None: none.
+    pinned
+        An axis, and a vertex of the grid that does not move along it; (3,) in mm.
+
+    Attributes
+    ----------
+    cut
+        Normal and distance of a plane that cuts chambers open, in UFL; None: they are closed.
     """
 
     def __init__(
@@ -60,6 +67,7 @@ class Elastomer:
         symmetry: dict[str, int] | None = None,
         thin: Sequence[str] = (),
         prestretch: tuple[float, float] | None = None,
+        pinned: tuple[int, np.ndarray] | None = None,
     ) -> None:
         if element.pressure is None and np.isinf(material.bulk):
             raise InputError(f"bulk = inf MPa: must be finite for element {element.name!r}, which "
@@ -78,7 +86,7 @@ class Elastomer:
         else:
             space = compat.vector_space(self.mesh, element.degree)
         self.function = fem.Function(space, name="elastomer")
-        constrained = self._constrained(space, clamped, symmetry or {})
+        constrained = self._constrained(space, clamped, symmetry or {}, pinned)
         if self._thin is None:
             self.block = Block(self.function, constrained)
         else:
@@ -88,6 +96,7 @@ class Elastomer:
         self.iterate = Iterate(self.function) if self.p is None else None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
+        self.cut: tuple[Any, Any] | None = None
         self._compiled_probes: dict[str, list[Any]] = {}
 
     @property
@@ -134,7 +143,7 @@ class Elastomer:
 
         ``weight``, a number on each cell at most, stands in the integrand.
         """
-        return self.on_face(face, weight * enclosed_volume(self.u, self.X, self.normal))
+        return self.on_face(face, weight * self._enclosed_volume)
 
     def cavity_volume(self, pairs: np.ndarray, weight: Any = 1.0) -> Any:
         """Return the same of some facets, pairs (cell of the grid, facet of the cell).
@@ -145,7 +154,11 @@ class Elastomer:
         tags = compat.facet_tags(self.mesh, facets, np.ones(len(facets), dtype=np.int32))
         ds = ufl.Measure("ds", self.mesh, subdomain_data=tags,
                          metadata={"quadrature_degree": self.element.quadrature})
-        return weight * enclosed_volume(self.u, self.X, self.normal) * ds(1)
+        return weight * self._enclosed_volume * ds(1)
+
+    @property
+    def _enclosed_volume(self) -> Any:
+        return enclosed_volume(self.u, self.X, self.normal, self.cut)
 
     # -- measures -----------------------------------------------------------------------------
 
@@ -331,7 +344,11 @@ class Elastomer:
         return np.flatnonzero(np.isin(compat.original_cells(self.mesh), cells)).astype(np.int32)
 
     def _constrained(
-        self, space: Any, clamped: Sequence[str], symmetry: dict[str, int]
+        self,
+        space: Any,
+        clamped: Sequence[str],
+        symmetry: dict[str, int],
+        pinned: tuple[int, np.ndarray] | None,
     ) -> np.ndarray:
         displacement = self.displacement_part(space)
         found = []
@@ -343,4 +360,9 @@ class Elastomer:
                 (part, collapsed), self.mesh.topology.dim - 1, self.face_facets(face)
             )
             found.append(dofs[0])
+        if pinned is not None:
+            part = displacement.sub(pinned[0])
+            at = np.reshape(pinned[1], (3, 1))
+            found.append(fem.locate_dofs_geometrical(
+                (part, part.collapse()[0]), lambda x: np.all(np.isclose(x, at), axis=0))[0])
         return np.unique(np.concatenate(found)) if found else np.empty(0, dtype=np.int32)

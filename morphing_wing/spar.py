@@ -48,6 +48,7 @@ class SparFidelity:
 
 
 FIDELITIES = {
+    "cell": SparFidelity(SparMeshing.graded(2), "Q2/P1disc", slender=10.0),
     "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0", slender=4.0),
     "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc", slender=10.0),
 }
@@ -87,6 +88,17 @@ class Spar(Scene):
 
     name = "spar"
     load_names = ("upper_MPa", "lower_MPa")
+
+    def __new__(
+        cls, geometry: SparGeometry, material: Yeoh = DRAGON_SKIN_30, fidelity: str = "standard",
+        *others: Any, **options: Any,
+    ) -> Spar:
+        """Return a scene of the kind that the fidelity is of."""
+        if cls is Spar and fidelity == "cell":
+            from .spar_cell import SparCell
+
+            return super().__new__(SparCell)
+        return super().__new__(cls)
 
     def __init__(
         self,

@@ -1,0 +1,97 @@
+"""The spar as one cell that repeats itself: no ends, and a twentieth of the unknowns."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from .angles import deflection_line
+from .chambers import ROWS
+from .elastomer import Elastomer
+from .elements import element as element_named
+from .errors import InputError
+from .geometry.spar import SparGeometry, SparMeshing
+from .materials import DRAGON_SKIN_30, Yeoh
+from .newton import Newton
+from .scene import Scene
+from .spar import FIDELITIES, Spar
+from .system import EquilibriumSystem
+from .turning_plane import TurningPlane
+
+
+class SparCell(Spar):
+    r"""A quarter of one cell of a long spar, bounded by mirror planes.
+
+    Where all chambers of a row have one pressure, each cell of a long spar is its neighbour turned:
+    the middles of walls and of chambers stay plane, and one turn :math:`\theta` from the middle of
+    a wall to that of a chamber gives :math:`\varphi_1 = 2 N \theta`. What the two ends do
+    differently is left out. ``Spar(..., fidelity="cell")`` makes one.
+
+    Parameters
+    ----------
+    geometry, material, comm, meshing, element, options_prefix
+        As `Spar` has them.
+    others
+        Other options of `Spar`: must have their defaults.
+    """
+
+    def __init__(
+        self,
+        geometry: SparGeometry,
+        material: Yeoh = DRAGON_SKIN_30,
+        fidelity: str = "cell",
+        comm: MPI.Comm | None = None,
+        meshing: SparMeshing | None = None,
+        element: str | None = None,
+        options_prefix: str = "spar_",
+        **others: Any,
+    ) -> None:
+        rung = FIDELITIES["cell"]
+        Scene.__init__(self, "cell", comm)
+        for name, usual in (("half", True), ("contact", False), ("filled", None)):
+            if others.get(name, usual) != usual:
+                raise InputError(
+                    f"{name} = {others[name]!r}: must be {usual} where fidelity is \"cell\"")
+        self.geometry, self.material = geometry, material
+        self.multiplicity = 4 * geometry.n_cells
+        self.body = Elastomer(
+            self.comm,
+            geometry.cell_mesh(meshing or rung.meshing),
+            material,
+            element_named(element or rung.element),
+            symmetry={"symmetry": 0, "wall_middle": 2},
+            pinned=(1, np.array([0.0, -geometry.middle_thickness / 2, 0.0])),
+        )
+        self.contact = self._filled = None
+        self._plane = TurningPlane(
+            self.body, "chamber_middle", geometry.pitch / 2, tuple(ROWS.values()))
+        self.system = EquilibriumSystem(
+            self.comm, [self.body.block, *self._plane.own_blocks, *self._plane.seen_blocks])
+        self._plane.number(self.system)
+        self._options_prefix = options_prefix
+
+    # -- what the scene is made of ------------------------------------------------------------
+
+    def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
+        energies, corrections = super()._functional(in_use)
+        return [*energies, self._plane.energy], corrections
+
+    def _measures(self) -> dict[str, float]:
+        n, turn = self.geometry.n_cells, self._plane.turn
+        tip = np.array([0.0, -self._sunk(n, turn), 0.0])
+        return {
+            "span_angle_deg": float(np.degrees(2 * n * turn)),
+            "span_line_deg": deflection_line(tip, np.array([0.0, 0.0, self.geometry.length])),
+        }
+
+    def _sunk(self, n: int, turn: float) -> float:
+        """Return how far the tip's middle sinks in mm: n chords, each 2 theta steeper, and a wall.
+
+        A chord joins the middles of two walls, which mirror each other in the chamber's plane.
+        """
+        middle = self.body.mean_displacement("wall_middle")[1]
+        chord = 2.0 * (self._plane.distance + middle * np.sin(turn))
+        steps = np.sin((2 * np.arange(n) + 1) * turn).sum()
+        return chord * steps + 0.5 * self.geometry.wall_length * np.sin(2 * n * turn)
