@@ -53,6 +53,7 @@ def measured(fidelity, n_cells):
     from morphing_wing.geometry.spar import SparGeometry
     from morphing_wing.materials import DRAGON_SKIN_30
     from morphing_wing.spar import Spar
+    from morphing_wing.stopwatch import Stopwatch
 
     def spar(n):
         return Spar(SparGeometry.validation(n), DRAGON_SKIN_30, fidelity=fidelity)
@@ -71,36 +72,6 @@ def measured(fidelity, n_cells):
         "factor": timed.seconds["factor"], "seconds": seconds,
         "peak_MB": peak_MB(MPI.COMM_SELF),
     })
-
-
-class Stopwatch:
-    """Adds up the seconds that a scene spends in assembly, and in factorising and solving."""
-
-    def __init__(self, scene):
-        self.seconds = {"assembly": 0.0, "factor": 0.0}
-        for name in ("residual", "tangent"):
-            self._watch(scene.system, name, "assembly")
-        make = scene._newton
-
-        def newton():
-            solver = make()
-            for name in ("setUp", "apply"):
-                self._watch(solver.factor, name, "factor")
-            return solver
-
-        scene._newton = newton
-
-    def _watch(self, owner, name, part):
-        inner = getattr(owner, name)
-
-        def timed(*arguments):
-            clock = time.perf_counter()
-            try:
-                return inner(*arguments)
-            finally:
-                self.seconds[part] += time.perf_counter() - clock
-
-        setattr(owner, name, timed)
 
 
 if __name__ == "__main__":

@@ -59,6 +59,19 @@ class SparMeshing:
             middle_thickness=uniform(level),
         )
 
+    @classmethod
+    def cornered(cls, level: int = 1) -> SparMeshing:
+        """Return a mesh graded towards the chamber corners from all sides of the solid."""
+        return cls(
+            cavity_length=two_sided(2 * level + 2, 3.0),
+            wall_length=two_sided(2 * level + 2, 3.0),
+            cavity_width=geometric(2 * level + 2, 0.5),
+            side_thickness=uniform(level),
+            top_thickness=uniform(2 * level),
+            cavity_height=two_sided(2 * level + 4, 3.0),
+            middle_thickness=two_sided(2 * level + 2, 3.0),
+        )
+
     def split(self, parts: int) -> SparMeshing:
         """Return the meshing with each interval in equal parts: its uniform refinement."""
         return SparMeshing(*(

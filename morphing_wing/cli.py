@@ -30,6 +30,7 @@ from morphing_wing.together import (
     UNEXPECTED,
     run_together,
 )
+from morphing_wing.tradeoff_command import tradeoff
 from morphing_wing.verify_command import verify
 
 __all__ = ["app", "main"]
@@ -90,7 +91,8 @@ def solve(
     progress = Progress(comm)
     with located(str(scene)):
         built = file.build(comm)
-        typer.echo(f"{file.scene}, {file.fidelity}: {built.dofs} unknowns on {comm.size} rank(s)")
+        typer.echo(f"{file.scene}, {built.fidelity}: {built.dofs} unknowns on {comm.size} rank(s)"
+                   + off_by(built))
         path = file.run(built, on_step=progress, on_cut=progress.cut, restart=folder,
                         resume=folder if resume else None)
     progress.end(path.converged, path.reason)
@@ -109,6 +111,12 @@ def solve(
         draw_modes(built, modes, folder / "modes")
     typer.echo(f"results are in {folder}")
     return DONE if path.converged else STOPPED
+
+
+def off_by(scene: Any) -> str:
+    """Return in words what was measured of a scene's rung, if anything was."""
+    error = scene.error_estimate
+    return "" if error is None else f"; measured error up to {100 * error:.2g} %"
 
 
 def draw_modes(scene: Any, n: int, folder: pathlib.Path) -> None:
@@ -144,6 +152,7 @@ def scenes(
 
 app.command()(paper)
 app.command()(verify)
+app.command()(tradeoff)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

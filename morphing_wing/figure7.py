@@ -16,12 +16,12 @@ from .errors import InputError, require
 from .figure7_facts import PANELS
 from .figure7_result import Curve, Figure7
 from .geometry.wing import WingGeometry
+from .ladder import pick
 from .limits import actuated
 from .path import Path
 from .progress import Progress
 from .record import without_fields
-from .scene import choose_fidelity
-from .wing import FIDELITIES, Wing
+from .wing import Wing
 
 __all__ = ["PRESSURES", "TENSIONS", "figure7"]
 
@@ -72,7 +72,7 @@ def figure7(
     """
     geometry = WingGeometry.prototype() if geometry is None else geometry
     for name in fidelities:
-        choose_fidelity(name, tuple(FIDELITIES))
+        pick("wing", name)
     for panel in panels:
         require(panel in PANELS, "panel", panel, "", "pressure or cables")
     for direction in directions:

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from morphing_wing.ladder import LADDERS
 from morphing_wing.materials import YIELD_MPA
-from morphing_wing.scene_file import FIDELITIES
 
 __all__ = ["KEYS", "PANELS", "Panel", "coupling", "facts", "reached_at", "words"]
 
@@ -167,7 +167,7 @@ def _curve(panel: Panel, rows: pd.DataFrame) -> dict[str, Any]:
 
 def _fidelities(curves: dict[tuple, pd.DataFrame]) -> Iterator[dict[str, Any]]:
     """Compare every curve with that of the finest fidelity that stands beside it."""
-    ladder = FIDELITIES["wing"]
+    ladder = LADDERS["wing"]
     for key, rows in curves.items():
         finest = max((k for k in curves if k[:3] == key[:3]), key=lambda k: ladder.index(k[3]))
         both = _side_by_side(rows, curves[finest], PANELS[key[0]].angle)

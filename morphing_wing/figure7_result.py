@@ -15,9 +15,9 @@ from mpi4py import MPI
 from .figure7_facts import KEYS, PANELS, facts
 from .figure7_picture import draw
 from .geometry.wing import WingGeometry
+from .ladder import LADDERS
 from .path import Path
 from .root import on_root, write_whole
-from .scene_file import FIDELITIES
 from .summary import plain, versions
 
 __all__ = ["Curve", "Figure7"]
@@ -112,7 +112,7 @@ class Figure7:
         """
         table = self.table()
         names = list(self.paths)
-        fidelities = [name for name in FIDELITIES["wing"] if any(c.fidelity == name for c in names)]
+        fidelities = [name for name in LADDERS["wing"] if any(c.fidelity == name for c in names)]
         number = {curve: i for i, curve in enumerate(names)}
         rows = [number[tuple(key)] for key in table[KEYS].itertuples(index=False)]
         first = next(iter(self.paths.values()), None)

@@ -13,9 +13,9 @@ from mpi4py import MPI
 
 from morphing_wing.errors import InputError, require
 from morphing_wing.geometry.wing import WingGeometry
+from morphing_wing.ladder import LADDERS
 from morphing_wing.out_folder import check_folder
 from morphing_wing.root import on_root
-from morphing_wing.scene_file import FIDELITIES
 from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
@@ -95,8 +95,8 @@ def check(
         raise InputError(f"{name}: is not there yet, must be fig7")
     require(name == "fig7", "figure", name, "", "fig7")
     for each in fidelities:
-        require(each in FIDELITIES["wing"], "--fidelity", each, "",
-                f"one of {', '.join(FIDELITIES['wing'])}")
+        require(each in LADDERS["wing"], "--fidelity", each, "",
+                f"one of {', '.join(LADDERS['wing'])}")
     require(points >= 1, "--points", points, "", "at least 1")
     require(skin in SKINS, "--skin", skin, "", "on, off or both")
     require(panel in PANELS, "--panel", panel, "", "pressure, cables or both")

@@ -23,15 +23,14 @@ from .forms.gravity import mass_density
 from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
+from .ladder import pick
 from .materials import RESIN, Elastic
 from .newton import Newton
 from .path import Path, State
-from .scene import Scene, choose_fidelity
+from .scene import Scene
 from .stepping import Stepping
 from .system import EquilibriumSystem
 from .tension import check_tension
-
-FIDELITIES = ("draft",)
 
 
 class Rib(Scene):
@@ -44,11 +43,14 @@ class Rib(Scene):
     material
         Resin.
     fidelity
-        "draft": a frame of beams.
+        "instant" (the paper's formula, moments only), "draft" (a frame of beams), or "auto": the
+        cheapest that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
     options_prefix
         Prefix of this scene's PETSc options.
+    tolerance
+        Relative error that "auto" may have, see `morphing_wing.ladder.pick`.
 
     Examples
     --------
@@ -60,6 +62,17 @@ class Rib(Scene):
     load_names = ("torque_Nmm", "cable_N")
     stepping = Stepping(easy=10)
 
+    def __new__(
+        cls, geometry: RibGeometry, material: Elastic = RESIN, fidelity: str = "draft",
+        *_: Any, tolerance: float | None = None, **__: Any,
+    ) -> Rib:
+        """Return a scene of the kind that the fidelity is of."""
+        if cls is Rib and pick("rib", fidelity, tolerance, geometry.n_cells).fidelity == "instant":
+            from .instant import InstantRib
+
+            return super().__new__(InstantRib)
+        return super().__new__(cls)
+
     def __init__(
         self,
         geometry: RibGeometry,
@@ -67,9 +80,9 @@ class Rib(Scene):
         fidelity: str = "draft",
         comm: MPI.Comm | None = None,
         options_prefix: str = "rib_",
+        tolerance: float | None = None,
     ) -> None:
-        choose_fidelity(fidelity, FIDELITIES)
-        super().__init__(fidelity, comm)
+        super().__init__(pick("rib", fidelity, tolerance, geometry.n_cells), comm)
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self.beams = BeamFrame(self.comm, geometry.frame(), material)

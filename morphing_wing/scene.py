@@ -21,6 +21,7 @@ from .contact import Contact
 from .errors import InputError
 from .inertia import InertiaCholesky
 from .iterate import Iterate
+from .ladder import Pick
 from .load_force import load_force
 from .newton import Newton, NewtonResult
 from .path import Path, State
@@ -45,6 +46,8 @@ class Scene(ABC):
     ----------
     name, fidelity, comm
         What, how finely, and on which ranks.
+    error_estimate
+        Relative error of the angle that was measured of this fidelity; None: it was not.
     multiplicity
         How often the modelled part stands in the whole: 2 for a half model.
     contact
@@ -63,8 +66,8 @@ class Scene(ABC):
     system: EquilibriumSystem
     contact: Contact | None = None
 
-    def __init__(self, fidelity: str, comm: MPI.Comm | None) -> None:
-        self.fidelity = fidelity
+    def __init__(self, rung: Pick, comm: MPI.Comm | None) -> None:
+        self.fidelity, self.error_estimate = rung.fidelity, rung.error
         self.comm = comm or MPI.COMM_WORLD
         self.loads: dict[str, Any] = {}
         self.watch: list[Callable[[State], None]] = []
@@ -326,10 +329,3 @@ class Scene(ABC):
 
     def _stored_energies(self) -> list[float]:
         return [compat.assemble_scalar(self.comm, form) for form in self._stored_forms]
-
-
-def choose_fidelity(name: str, allowed: Sequence[str]) -> str:
-    """Return a fidelity's name, or refuse it."""
-    if name not in allowed:
-        raise InputError(f"fidelity = {name!r}: must be one of {', '.join(allowed)}")
-    return name

@@ -27,21 +27,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from morphing_wing.errors import InputError, one_line, require
+from morphing_wing.errors import InputError, one_line
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.geometry.wing import WingGeometry
+from morphing_wing.ladder import AUTO, pick
 from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
 
-__all__ = ["FIDELITIES", "SceneFile", "located", "parse_scene", "read_scene"]
-
-FIDELITIES = {
-    "spar": ("draft", "standard"),
-    "rib": ("draft",),
-    "wing": ("draft", "standard"),
-}
-"""Rungs that each scene has, cheapest first."""
+__all__ = ["SceneFile", "located", "parse_scene", "read_scene"]
 
 DEFAULT_FIDELITY = {"spar": "standard", "rib": "draft", "wing": "draft"}
 
@@ -65,7 +59,9 @@ class SceneFile:
         Keyword arguments of its load method: ``upper`` and ``lower`` in MPa, ``cable`` in N,
         ``torque`` in N mm, each a tuple of one value or of one value a load step.
     fidelity
-        Rung of the ladder of fidelities.
+        Rung of the ladder of fidelities, or "auto".
+    tolerance
+        Relative error that "auto" may have.
     """
 
     scene: str
@@ -73,6 +69,7 @@ class SceneFile:
     materials: dict[str, Any]
     loads: dict[str, tuple[float, ...]]
     fidelity: str
+    tolerance: float | None = None
 
     def build(self, comm: Any = None) -> Any:
         """Build the scene on all ranks of ``comm`` (None: all); its states tell of its limits."""
@@ -80,7 +77,8 @@ class SceneFile:
         from morphing_wing.limits import Limits
 
         scene = getattr(module, self.scene.capitalize())
-        built = scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm)
+        built = scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm,
+                      tolerance=self.tolerance)
         built.watch.append(Limits(built))
         return built
 
@@ -124,12 +122,13 @@ def parse_scene(text: str, name: str, fidelity: str | None = None) -> SceneFile:
         raise InputError(f"{name}: must be valid TOML: {one_line(problem)}") from None
     with located(name):
         keys = check_keys(table)
+        tolerance = None if fidelity not in (None, AUTO) else keys.tolerance
         fidelity = fidelity or keys.fidelity or DEFAULT_FIDELITY[keys.scene]
-        allowed = FIDELITIES[keys.scene]
-        require(fidelity in allowed, "fidelity", fidelity, "", one_of(allowed))
         geometry = geometry_of(keys.scene, keys.geometry)
+        pick(keys.scene, fidelity, tolerance, geometry.n_cells)
         materials = materials_of(keys, geometry)
-        return SceneFile(keys.scene, geometry, materials, loads_of(keys, geometry), fidelity)
+        loads = loads_of(keys, geometry)
+        return SceneFile(keys.scene, geometry, materials, loads, fidelity, tolerance)
 
 
 def geometry_of(scene: str, keys: Keys) -> Any:

@@ -155,6 +155,7 @@ class SparFile(Keys):
 
     scene: Literal["spar"]
     fidelity: Text | None = None
+    tolerance: float | None = None
     geometry: SparKeys
     elastomer: ElastomerKeys = ElastomerKeys()
     loads: PressureKeys
@@ -165,6 +166,7 @@ class RibFile(Keys):
 
     scene: Literal["rib"]
     fidelity: Text | None = None
+    tolerance: float | None = None
     geometry: RibKeys
     resin: ResinKeys = ResinKeys()
     loads: RibLoadKeys
@@ -175,6 +177,7 @@ class WingFile(Keys):
 
     scene: Literal["wing"]
     fidelity: Text | None = None
+    tolerance: float | None = None
     contact: bool = True
     geometry: WingKeys
     adhesive: AdhesiveKeys | None = None

@@ -22,10 +22,11 @@ from .filled import FILLINGS, FilledChambers
 from .forms.gravity import mass_density
 from .geometry.spar import SparGeometry, SparMeshing
 from .iterate import Iterate
+from .ladder import Pick, pick
 from .materials import DRAGON_SKIN_30, Yeoh
 from .newton import Newton
 from .path import Path, State
-from .scene import Scene, choose_fidelity
+from .scene import Scene
 from .system import EquilibriumSystem
 
 
@@ -48,10 +49,26 @@ class SparFidelity:
 
 
 FIDELITIES = {
-    "cell": SparFidelity(SparMeshing.graded(2), "Q2/P1disc", slender=10.0),
+    "cell": SparFidelity(SparMeshing.cornered(), "Q2/P1disc", slender=10.0),
     "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0", slender=4.0),
     "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc", slender=10.0),
+    "reference": SparFidelity(SparMeshing.cornered(), "Q2/P1disc", slender=10.0),
 }
+
+
+def pick_of(
+    geometry: SparGeometry,
+    fidelity: str,
+    tolerance: float | None = None,
+    half: bool = True,
+    contact: bool = False,
+    filled: str | None = None,
+    **_: Any,
+) -> Pick:
+    """Return the rung for a spar's options: whole ones only where cells differ, or are drawn."""
+    whole = contact or filled is not None or not half
+    return pick("spar", fidelity, tolerance, geometry.n_cells, tuple(FIDELITIES)[1:] if whole
+                else None)
 
 
 class Spar(Scene):
@@ -64,7 +81,9 @@ class Spar(Scene):
     material
         Yeoh elastomer.
     fidelity
-        "draft" (Q1/P0) or "standard" (Q2/P1disc); both graded at the chamber corners.
+        "instant" (the paper's formula), "cell" (one cell that repeats itself: no ends), "draft"
+        (Q1/P0), "standard" (Q2/P1disc), "reference" (the same on a fine mesh), the last four graded
+        at the chamber corners; or "auto": the cheapest that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
     half
@@ -79,6 +98,8 @@ class Spar(Scene):
     filled
         None: pressures are given. "shared" or "separate": volumes are, by one supply for all
         chambers of a row or an equal part for each; see `fill`.
+    tolerance
+        Relative error that "auto" may have, see `morphing_wing.ladder.pick`.
 
     Examples
     --------
@@ -91,13 +112,20 @@ class Spar(Scene):
 
     def __new__(
         cls, geometry: SparGeometry, material: Yeoh = DRAGON_SKIN_30, fidelity: str = "standard",
-        *others: Any, **options: Any,
+        *_: Any, **options: Any,
     ) -> Spar:
         """Return a scene of the kind that the fidelity is of."""
-        if cls is Spar and fidelity == "cell":
+        if cls is not Spar:
+            return super().__new__(cls)
+        picked = pick_of(geometry, fidelity, **options).fidelity
+        if picked == "cell":
             from .spar_cell import SparCell
 
             return super().__new__(SparCell)
+        if picked == "instant":
+            from .instant import InstantSpar
+
+            return super().__new__(InstantSpar)
         return super().__new__(cls)
 
     def __init__(
@@ -112,12 +140,14 @@ class Spar(Scene):
         options_prefix: str = "spar_",
         contact: bool = False,
         filled: str | None = None,
+        tolerance: float | None = None,
     ) -> None:
         self.led = filled is not None
         if self.led:
             self.load_names, self.primary_load = ("upper_mm3", "lower_mm3"), "upper_mm3"
-        rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
-        super().__init__(fidelity, comm)
+        picked = pick_of(geometry, fidelity, tolerance, half, contact, filled)
+        rung = FIDELITIES[picked.fidelity]
+        super().__init__(picked, comm)
         if meshing is None:
             self._warn_of_slender_walls(geometry, rung)
         self.geometry, self.material = geometry, material

@@ -14,9 +14,8 @@ from .elements import element as element_named
 from .errors import InputError
 from .geometry.spar import SparGeometry, SparMeshing
 from .materials import DRAGON_SKIN_30, Yeoh
-from .newton import Newton
 from .scene import Scene
-from .spar import FIDELITIES, Spar
+from .spar import FIDELITIES, Spar, pick_of
 from .system import EquilibriumSystem
 from .turning_plane import TurningPlane
 
@@ -48,8 +47,8 @@ class SparCell(Spar):
         options_prefix: str = "spar_",
         **others: Any,
     ) -> None:
-        rung = FIDELITIES["cell"]
-        Scene.__init__(self, "cell", comm)
+        picked, rung = pick_of(geometry, fidelity, others.get("tolerance")), FIDELITIES["cell"]
+        Scene.__init__(self, picked, comm)
         for name, usual in (("half", True), ("contact", False), ("filled", None)):
             if others.get(name, usual) != usual:
                 raise InputError(

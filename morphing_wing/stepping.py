@@ -15,6 +15,8 @@ from .targets import load_words
 
 Load = Mapping[str, float]
 
+REACHED = "the last load was reached"
+
 
 @dataclass(frozen=True)
 class Stepping:
@@ -156,7 +158,7 @@ def follow(
                 keep(Standing(here, number + requested, begin, target, done, step), states)
             if on_step is not None:
                 on_step(state)
-    return states, True, "the last load was reached"
+    return states, True, REACHED
 
 
 def _longest(way: Load, stepping: Stepping) -> float:

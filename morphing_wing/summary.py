@@ -30,7 +30,8 @@ def summary(path: Path) -> dict[str, Any]:
     beside them. ``contact_from`` is the index of the first step whose skin passes through itself or
     a rib for want of contact forces, ``touching_from`` of the first step in which something presses
     on something; None if there is none. ``passed`` says which limits of the materials were passed
-    and from which load on, where they were measured.
+    and from which load on, where they were measured. ``error_estimate`` is the relative error of
+    the angle that was measured of this fidelity, None where nothing like the scene was.
     """
     table = path.table().drop(columns=["step_seconds"], errors="ignore")
     steps = len(path)
@@ -43,6 +44,7 @@ def summary(path: Path) -> dict[str, Any]:
     return {
         "scene": path.scene.name,
         "fidelity": path.scene.fidelity,
+        "error_estimate": getattr(path.scene, "error_estimate", None),
         "dofs": int(path.scene.dofs),
         "seconds": path.seconds,
         "converged": path.converged,

@@ -25,11 +25,11 @@ from .geometry.wing_mesh import WingMeshing, wing_mesh
 from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
+from .ladder import pick
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
 from .pocket import in_pocket
-from .scene import choose_fidelity
 from .system import EquilibriumSystem
 from .tension import check_tension
 from .weight import Weight
@@ -63,7 +63,7 @@ class Wing(TrimmedWing):
         Materials of spar and skin, and of the ribs.
     fidelity
         "draft" (linear hexahedra, fine mesh, enhanced strains in the skin) or "standard"
-        (quadratic hexahedra); frame ribs.
+        (quadratic hexahedra); frame ribs. "auto": the cheaper one that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
     meshing, element
@@ -75,6 +75,8 @@ class Wing(TrimmedWing):
         Law of the glue; None: elastic with the geometry's ``glue_stiffness``.
     options_prefix
         Prefix of this scene's PETSc options.
+    tolerance
+        Relative error that "auto" may have, see `morphing_wing.ladder.pick`.
 
     Examples
     --------
@@ -97,12 +99,14 @@ class Wing(TrimmedWing):
         options_prefix: str = "wing_",
         contact: bool = True,
         adhesive: Adhesive | None = None,
+        tolerance: float | None = None,
     ) -> None:
-        rung = FIDELITIES[choose_fidelity(fidelity, tuple(FIDELITIES))]
+        picked = pick("wing", fidelity, tolerance, geometry.n_cells)
+        rung = FIDELITIES[picked.fidelity]
         prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
         if prestretch is not None:
             self.load_names = (*self.load_names, "prestretch_part")
-        super().__init__(fidelity, comm)
+        super().__init__(picked, comm)
         self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
         self._options_prefix = options_prefix
         self.ribs: BeamFrame | None = None

@@ -12,7 +12,7 @@ from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
-from morphing_wing.scene_file import FIDELITIES, parse_scene
+from morphing_wing.scene_file import parse_scene
 from morphing_wing.scene_keys import ElastomerKeys, ResinKeys, RibKeys, SparKeys, WingKeys
 
 pytestmark = pytest.mark.quick
@@ -40,12 +40,6 @@ def wing(geometry, loads='upper = "1 kPa"'):
 def test_keys_of_a_table_are_the_fields_of_its_class(keys, shape):
     fields = {field.name for field in dataclasses.fields(shape)}
     assert set(keys.model_fields) - {"preset"} == fields
-
-
-@pytest.mark.parametrize("kind", FIDELITIES)
-def test_fidelities_of_the_file_are_those_of_the_scene(kind):
-    module = pytest.importorskip(f"morphing_wing.{kind}")
-    assert FIDELITIES[kind] == tuple(module.FIDELITIES)
 
 
 def test_preset_alone_is_the_papers_set_and_materials():
