@@ -52,10 +52,10 @@ BROKEN = {
         toml(SPAR, geometry="n_cells = 2"), "geometry.cavity_length: is missing"),
     "unknown fidelity": (
         toml(SPAR, head='scene = "spar"\nfidelity = "best"'),
-        "fidelity = 'best': must be one of draft, standard"),
+        "fidelity = 'best': must be one of instant, cell, draft, standard"),
     "fidelity that a rib has not": (
         toml(RIB, head='scene = "rib"\nfidelity = "standard"'),
-        "fidelity = 'standard': must be draft"),
+        "fidelity = 'standard': must be one of instant, draft, or auto"),
     "bare number for a length": (
         geometry(SPAR, "top_thickness = 1.2"), "geometry.top_thickness = 1.2: must be a length"),
     "number without unit in text": (
@@ -222,7 +222,7 @@ def test_file_that_is_no_text_is_refused(folder, capfd):
 def test_fidelity_of_the_command_line_is_checked(folder, capfd):
     (folder / "spar.toml").write_text(toml(SPAR))
     sentence = refused(capfd, "spar.toml", "--fidelity", "best")
-    assert "fidelity = 'best': must be one of draft, standard" in sentence
+    assert "fidelity = 'best': must be one of instant, cell, draft" in sentence
 
 
 def test_file_in_the_place_of_the_output_folder_is_refused_and_kept(folder, capfd):

@@ -9,7 +9,7 @@ from mpi4py import MPI
 
 from morphing_wing.fields import mode_grids
 from morphing_wing.geometry.rib import RibGeometry
-from morphing_wing.geometry.spar import SparGeometry
+from morphing_wing.geometry.spar import SparGeometry, SparMeshing
 from morphing_wing.materials import Adhesive
 from morphing_wing.modes import modes
 from morphing_wing.rib import Rib
@@ -72,6 +72,14 @@ def test_spar_filled_with_a_volume_is_the_same(filled):
     def run(comm):
         scene = Spar(SparGeometry.validation(3), fidelity="draft", comm=comm, filled=filled)
         return scene.fill(upper=[1000.0, 2500.0], lower=[0.0, 500.0])
+
+    compare(run)
+
+
+def test_one_cell_of_a_spar_is_the_same():
+    def run(comm):
+        return Spar(SparGeometry.validation(20), fidelity="cell", comm=comm,
+                    meshing=SparMeshing.graded(1)).inflate(upper=[0.01, 0.03], lower=[0.0, 0.005])
 
     compare(run)
 

@@ -178,7 +178,7 @@ def test_pressures_that_are_none_are_refused_in_one_sentence(load, text):
 
 @pytest.mark.quick
 def test_unknown_fidelity_and_element_are_refused_in_one_sentence():
-    with pytest.raises(InputError, match=r"^fidelity = 'best': must be one of draft, standard$"):
+    with pytest.raises(InputError, match=r"^fidelity = 'best': must be one of instant, cell, "):
         Spar(SMALL, fidelity="best", comm=MPI.COMM_SELF)
     with pytest.raises(InputError, match=r"^element = 'Q3': must be one of Q2/P1disc, "):
         Spar(SMALL, element="Q3", comm=MPI.COMM_SELF)

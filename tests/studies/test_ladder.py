@@ -1,0 +1,76 @@
+"""Which rung "auto" takes, from figures made up here and from those in the package."""
+
+import pytest
+
+from morphing_wing import ladder
+from morphing_wing.errors import InputError
+from morphing_wing.geometry.spar import SparGeometry
+from morphing_wing.ladder import LADDERS, errors_of, pick
+from morphing_wing.spar import Spar
+from morphing_wing.spar_cell import SparCell
+
+pytestmark = pytest.mark.quick
+
+ROWS = [("instant", 2, 0.3), ("draft", 2, -0.06), ("draft", 2, 0.01), ("standard", 2, 0.01),
+        ("instant", 20, -0.15), ("draft", 20, 0.04), ("standard", 20, -0.005)]
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    rows = [dict(zip(("fidelity", "n_cells", "error"), row, strict=True)) for row in ROWS]
+    monkeypatch.setattr(ladder, "_measured", lambda scene: rows)
+
+
+@pytest.mark.parametrize("n_cells, tolerance, rung, error", [
+    (20, 0.2, "instant", 0.15), (20, 0.05, "draft", 0.04), (20, 0.005, "standard", 0.005),
+    (19, 0.05, "standard", 0.01), (2, 0.06, "draft", 0.06), (1, 0.02, "standard", 0.01),
+    (50, 0.05, "draft", 0.04),
+])
+def test_auto_takes_the_cheapest_that_was_accurate_enough(made_up, n_cells, tolerance, rung, error):
+    found = pick("spar", "auto", tolerance, n_cells)
+    assert (found.fidelity, found.error) == (rung, error)
+
+
+def test_a_named_rung_keeps_its_name_and_tells_its_error(made_up):
+    assert pick("spar", "draft", n_cells=2) == ladder.Pick("draft", 0.06)
+    assert pick("spar", "reference", n_cells=2).error is None
+
+
+def test_auto_may_be_held_to_some_rungs(made_up):
+    assert pick("spar", "auto", 0.2, 20, ("draft", "standard")).fidelity == "draft"
+
+
+@pytest.mark.parametrize("arguments, sentence", [
+    (("best",), "fidelity = 'best': must be one of instant, cell, draft, standard, reference, or "
+                "auto"),
+    (("draft", 0.01), "tolerance = 0.01: must be left out unless fidelity is 'auto'"),
+    (("auto", 0.0), "tolerance = 0: must be a relative error of the angle greater than 0"),
+    (("auto", "1 %"), "tolerance = '1 %': must be a relative error of the angle greater than 0"),
+    (("auto", 0.001, 20), "tolerance = 0.001: must be at least 0.005, the measured error of the "
+                          "most accurate rung, standard"),
+])
+def test_what_cannot_be_picked_is_refused(made_up, arguments, sentence):
+    with pytest.raises(InputError) as refused:
+        pick("spar", *arguments)
+    assert str(refused.value) == sentence
+
+
+@pytest.mark.parametrize("scene", LADDERS)
+def test_all_rungs_were_measured(scene):
+    errors = errors_of(scene, 20)
+    assert set(errors) == set(LADDERS[scene])
+    assert all(0.0 < error < 0.6 for error in errors.values())
+    assert errors[LADDERS[scene][-1]] == min(errors.values()) or scene == "spar"
+
+
+def test_a_scene_takes_the_rung_and_says_how_far_it_is_off():
+    geometry = SparGeometry.validation(20)
+    scene = Spar(geometry, fidelity="auto", tolerance=0.01)
+    assert type(scene) is SparCell and scene.fidelity == "cell"
+    path = scene.inflate(upper=1e-3)
+    assert 0.0 < path.summary()["error_estimate"] < 0.01
+
+
+def test_where_a_cell_will_not_do_a_whole_spar_is_taken():
+    scene = Spar(SparGeometry.validation(2), fidelity="auto", tolerance=0.2, contact=True)
+    assert type(scene) is Spar and scene.fidelity == "draft"
