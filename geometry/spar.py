@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -71,6 +71,13 @@ class SparMeshing:
             cavity_height=two_sided(2 * level + 4, 3.0),
             middle_thickness=two_sided(2 * level + 2, 3.0),
         )
+
+    def shortened(self, longest: float) -> SparMeshing:
+        """Return the meshing with no interval along a chamber longer than this part of it."""
+        lengths = np.diff(self.cavity_length)
+        parts = np.ceil(lengths / longest - 1e-9).astype(int)
+        steps = np.repeat(lengths / parts, parts)
+        return replace(self, cavity_length=np.concatenate([[0.0], np.cumsum(steps)]))
 
     def split(self, parts: int) -> SparMeshing:
         """Return the meshing with each interval in equal parts: its uniform refinement."""

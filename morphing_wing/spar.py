@@ -40,7 +40,7 @@ class SparFidelity:
         The mesh and the element.
     slender
         Length of a chamber over the thinner of its ceiling and floor up to which the rung's error
-        was measured.
+        was measured; beyond it the mesh is refined along the chamber.
     """
 
     meshing: SparMeshing
@@ -54,6 +54,25 @@ FIDELITIES = {
     "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc", slender=10.0),
     "reference": SparFidelity(SparMeshing.cornered(), "Q2/P1disc", slender=10.0),
 }
+
+
+SLENDER_INTERVAL = 1.5
+"""Longest interval along a chamber, in thicknesses of its thinnest wall, where it is slender."""
+
+
+def fitted(scene: Scene, geometry: SparGeometry, rung: SparFidelity) -> SparMeshing:
+    """Return a rung's meshing for a geometry, and warn where its error is not known."""
+    thinnest = min(geometry.top_thickness, geometry.middle_thickness)
+    ratio = geometry.cavity_length / thinnest
+    if ratio <= rung.slender:
+        return rung.meshing
+    if scene.comm.rank == 0:
+        warnings.warn(
+            f"cavity_length = {geometry.cavity_length:g} mm: is {ratio:.3g} times the thinnest "
+            f"wall above or below a chamber; {scene.fidelity}'s error is known up to "
+            f"{rung.slender:g} times, and its mesh is refined beyond: compare finer meshings",
+            stacklevel=4)
+    return rung.meshing.shortened(SLENDER_INTERVAL / ratio)
 
 
 def pick_of(
@@ -148,13 +167,11 @@ class Spar(Scene):
         picked = pick_of(geometry, fidelity, tolerance, half, contact, filled)
         rung = FIDELITIES[picked.fidelity]
         super().__init__(picked, comm)
-        if meshing is None:
-            self._warn_of_slender_walls(geometry, rung)
         self.geometry, self.material = geometry, material
         self.multiplicity = 2 if half else 1
         self.body = Elastomer(
             self.comm,
-            geometry.mesh(meshing or rung.meshing, half),
+            geometry.mesh(meshing or fitted(self, geometry, rung), half),
             material,
             element_named(element or rung.element),
             clamped=("root",),
@@ -173,17 +190,6 @@ class Spar(Scene):
         if self._filled is not None:
             self._filled.number(self.system)
         self._options_prefix = options_prefix
-
-    def _warn_of_slender_walls(self, geometry: SparGeometry, rung: SparFidelity) -> None:
-        """Say where a rung's mesh is too coarse for the bending of ceilings and floors."""
-        thinnest = min(geometry.top_thickness, geometry.middle_thickness)
-        ratio = geometry.cavity_length / thinnest
-        if ratio > rung.slender and self.comm.rank == 0:
-            warnings.warn(
-                f"cavity_length = {geometry.cavity_length:g} mm: is {ratio:.3g} times the thinnest "
-                f"wall above or below a chamber; {self.fidelity}'s error is known up to "
-                f"{rung.slender:g} times, beyond it may be anything: compare finer meshings",
-                stacklevel=3)
 
     def inflate(
         self,

@@ -15,7 +15,7 @@ from .errors import InputError
 from .geometry.spar import SparGeometry, SparMeshing
 from .materials import DRAGON_SKIN_30, Yeoh
 from .scene import Scene
-from .spar import FIDELITIES, Spar, pick_of
+from .spar import FIDELITIES, Spar, fitted, pick_of
 from .system import EquilibriumSystem
 from .turning_plane import TurningPlane
 
@@ -57,7 +57,7 @@ class SparCell(Spar):
         self.multiplicity = 4 * geometry.n_cells
         self.body = Elastomer(
             self.comm,
-            geometry.cell_mesh(meshing or rung.meshing),
+            geometry.cell_mesh(meshing or fitted(self, geometry, rung)),
             material,
             element_named(element or rung.element),
             symmetry={"symmetry": 0, "wall_middle": 2},

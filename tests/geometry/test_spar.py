@@ -87,6 +87,29 @@ def test_chambers_of_the_half_model_are_open_only_at_the_symmetry_plane():
         assert hexahedra.enclosed(mesh, row) == pytest.approx(3 * CAVITY / 2, rel=1e-13)
 
 
+@MESHINGS
+def test_the_cell_that_repeats_is_a_quarter_of_one_pitch(meshing):
+    mesh = SPAR.cell_mesh(meshing)
+    assert hexahedra.volume(mesh, "elastomer") == pytest.approx(
+        (42.4 * 16.8 * 5.0 - 2 * CAVITY) / 4, rel=1e-13)
+    assert hexahedra.corner_jacobians(mesh).min() > 0.0
+    assert hexahedra.area(mesh, "wall_middle") == pytest.approx(42.4 * 16.8 / 2, rel=1e-13)
+    assert hexahedra.area(mesh, "chamber_middle") == pytest.approx(
+        (42.4 * 16.8 - 2 * 40.0 * 6.0) / 2, rel=1e-13)
+    for row in ("upper_chambers", "lower_chambers"):  # one wall and half of four
+        assert hexahedra.area(mesh, row) == pytest.approx(
+            (40.0 * 6.0 + (40.0 + 6.0) * 2.8) / 2, rel=1e-13)
+    np.testing.assert_allclose(mesh.points[:, 2].max(), 2.5, rtol=1e-14)
+
+
+def test_shortened_meshing_has_no_longer_interval_and_keeps_its_breakpoints():
+    parts = SparMeshing.graded(1)
+    shorter = parts.shortened(0.1)
+    assert np.diff(shorter.cavity_length).max() <= 0.1 + 1e-12
+    assert all(np.isclose(shorter.cavity_length, at).any() for at in parts.cavity_length)
+    np.testing.assert_allclose(parts.shortened(1.0).cavity_length, parts.cavity_length)
+
+
 def test_upper_and_lower_rows_are_mirror_images():
     mesh = SPAR.mesh()
     upper, lower = (mesh.facet_points(row).reshape(-1, 3)
