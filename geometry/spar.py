@@ -108,6 +108,9 @@ class SparGeometry:
         Chordwise width of a chamber, w_c.
     n_cells
         Number of chambers in each of the two rows, N.
+    wall_lengths
+        Thickness of each wall across the span, N + 1 from root to tip, where they differ; None:
+        all are ``wall_length``.
     """
 
     cavity_length: float
@@ -118,14 +121,21 @@ class SparGeometry:
     side_thickness: float
     cavity_width: float
     n_cells: int
+    wall_lengths: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built."""
-        for field in fields(self)[:-1]:
+        for field in fields(self)[:-2]:
             value = getattr(self, field.name)
             ok = is_number(value) and value > 0
             require(ok, field.name, value, "mm", "a finite length greater than 0 mm")
         require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
+        given = self.wall_lengths
+        if given is not None:
+            ok = isinstance(given, (tuple, list)) and len(given) == self.n_cells + 1 and all(
+                is_number(wall) and wall > 0 for wall in given)
+            require(ok, "wall_lengths", given, "mm",
+                    f"n_cells + 1 = {self.n_cells + 1} finite lengths greater than 0 mm")
 
     @classmethod
     def validation(cls, n_cells: int = 20) -> SparGeometry:
@@ -143,13 +153,20 @@ class SparGeometry:
 
     @property
     def pitch(self) -> float:
-        """Length in mm of the cell that repeats: one chamber and one wall."""
+        """Length in mm of the cell that repeats where walls are alike: one chamber and one wall."""
         return self.cavity_length + self.wall_length
 
     @property
     def length(self) -> float:
         """Span in mm: every chamber with its walls, an end wall on both sides."""
-        return self.n_cells * self.pitch + self.wall_length
+        return self.n_cells * self.cavity_length + float(self.walls.sum())
+
+    @property
+    def walls(self) -> np.ndarray:
+        """Thickness in mm of each wall across the span, shape (N + 1,), from root to tip."""
+        if self.wall_lengths is None:
+            return np.full(self.n_cells + 1, self.wall_length)
+        return np.array(self.wall_lengths, dtype=float)
 
     @property
     def height(self) -> float:
@@ -163,7 +180,8 @@ class SparGeometry:
 
     def chamber_of(self, z: np.ndarray) -> np.ndarray:
         """Return the number, from 0 at the root, of the chamber at each place along the span."""
-        return ((z - self.wall_length) // self.pitch).astype(int)
+        ends = np.cumsum(self.walls[:-1] + self.cavity_length)
+        return np.searchsorted(ends, z)
 
     def mesh(self, meshing: SparMeshing | None = None, half: bool = True) -> HexMesh:
         """Return swept hexahedra; x from the symmetry plane, y up from the middle, z from the root.
@@ -172,8 +190,9 @@ class SparGeometry:
         (x = 0) of the half model, which holds x >= 0.
         """
         parts = meshing or SparMeshing.graded()
-        cell = [(self.cavity_length, parts.cavity_length), (self.wall_length, parts.wall_length)]
-        along = breakpoints((self.wall_length, parts.wall_length), *cell * self.n_cells)
+        cavity = (self.cavity_length, parts.cavity_length)
+        walls = [(wall, parts.wall_length) for wall in self.walls]
+        along = breakpoints(walls[0], *(piece for wall in walls[1:] for piece in (cavity, wall)))
         return self._swept(parts, along, half, ("root", "tip"))
 
     def cell_mesh(self, meshing: SparMeshing | None = None) -> HexMesh:

@@ -21,7 +21,7 @@ from .materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 from .path import Path, State
 from .rib import Rib
 from .scene import Scene
-from .spar import Spar, pick_of
+from .spar import Spar, check_alike, pick_of
 from .stepping import REACHED
 from .targets import load_targets, load_words
 
@@ -90,6 +90,7 @@ class InstantSpar(Formula, Spar):
     ) -> None:
         Scene.__init__(self, pick_of(geometry, fidelity, options.get("tolerance")), comm)
         self._set_up(options)
+        check_alike(geometry, self.fidelity)
         self.geometry, self.material, self.multiplicity = geometry, material, 1
         self._filled = None
         self._formula = SparFormula(geometry, material)

@@ -58,6 +58,7 @@ class SparKeys(Keys):
     side_thickness: Length | None = None
     cavity_width: Length | None = None
     n_cells: Count | None = None
+    wall_lengths: list[Length] | None = None
 
 
 class RibKeys(Keys):

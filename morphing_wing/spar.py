@@ -85,9 +85,16 @@ def pick_of(
     **_: Any,
 ) -> Pick:
     """Return the rung for a spar's options: whole ones only where cells differ, or are drawn."""
-    whole = contact or filled is not None or not half
+    whole = contact or filled is not None or not half or geometry.wall_lengths is not None
     return pick("spar", fidelity, tolerance, geometry.n_cells, tuple(FIDELITIES)[1:] if whole
                 else None)
+
+
+def check_alike(geometry: SparGeometry, fidelity: str) -> None:
+    """Refuse walls that differ where all cells must be alike."""
+    if geometry.wall_lengths is not None:
+        raise InputError(f"wall_lengths = {geometry.wall_lengths} mm: must be None where fidelity "
+                         f"is {fidelity!r}, whose cells are all alike")
 
 
 class Spar(Scene):

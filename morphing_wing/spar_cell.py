@@ -15,7 +15,7 @@ from .errors import InputError
 from .geometry.spar import SparGeometry, SparMeshing
 from .materials import DRAGON_SKIN_30, Yeoh
 from .scene import Scene
-from .spar import FIDELITIES, Spar, fitted, pick_of
+from .spar import FIDELITIES, Spar, check_alike, fitted, pick_of
 from .system import EquilibriumSystem
 from .turning_plane import TurningPlane
 
@@ -53,6 +53,7 @@ class SparCell(Spar):
             if others.get(name, usual) != usual:
                 raise InputError(
                     f"{name} = {others[name]!r}: must be {usual} where fidelity is \"cell\"")
+        check_alike(geometry, picked.fidelity)
         self.geometry, self.material = geometry, material
         self.multiplicity = 4 * geometry.n_cells
         self.body = Elastomer(

@@ -110,6 +110,28 @@ def test_shortened_meshing_has_no_longer_interval_and_keeps_its_breakpoints():
     np.testing.assert_allclose(parts.shortened(1.0).cavity_length, parts.cavity_length)
 
 
+def test_walls_may_differ():
+    walls = (2.0, 0.2, 3.0, 1.0)
+    spar = dataclasses.replace(SPAR, wall_lengths=walls)
+    assert spar.length == pytest.approx(3 * 2.8 + 6.2)
+    mesh = spar.mesh(half=False)
+    assert hexahedra.volume(mesh, "elastomer") == pytest.approx(
+        42.4 * 16.8 * 14.6 - 6 * CAVITY, rel=1e-13)
+    middles = mesh.facet_points("upper_chambers")[:, :, 2].mean(axis=1)
+    z = np.array([2.0, 4.79, 5.01, 7.79, 10.81, 13.59])
+    np.testing.assert_array_equal(spar.chamber_of(z), [0, 0, 1, 1, 2, 2])
+    assert set(spar.chamber_of(mesh.beyond("upper_chambers")[:, 2])) == {0, 1, 2}
+    assert middles.min() > 1.9
+    alike = dataclasses.replace(SPAR, wall_lengths=(2.2,) * 4).mesh()
+    np.testing.assert_allclose(alike.points, SPAR.mesh().points, atol=1e-12)
+
+
+@pytest.mark.parametrize("value", [(1.0, 1.0), (1.0, 1.0, 1.0, 0.0), 2.0, (1.0, "1", 1.0, 1.0)])
+def test_walls_that_cannot_be_built_are_refused_in_one_sentence(value):
+    with pytest.raises(InputError, match=r"^wall_lengths = .*mm: must be n_cells \+ 1 = 4 finite"):
+        dataclasses.replace(SPAR, wall_lengths=value)
+
+
 def test_upper_and_lower_rows_are_mirror_images():
     mesh = SPAR.mesh()
     upper, lower = (mesh.facet_points(row).reshape(-1, 3)
@@ -129,7 +151,7 @@ def test_graded_meshes_are_finest_at_the_chambers_corners():
     assert np.argmin(np.diff(parts.cavity_width)) == len(parts.cavity_width) - 2
 
 
-@pytest.mark.parametrize("name", [f.name for f in dataclasses.fields(SparGeometry)[:-1]])
+@pytest.mark.parametrize("name", [f.name for f in dataclasses.fields(SparGeometry)[:-2]])
 @pytest.mark.parametrize("value", [0.0, -2.0, float("nan"), float("inf"), "2 mm", None])
 def test_lengths_that_cannot_be_built_are_refused_in_one_sentence(name, value):
     with pytest.raises(InputError, match=rf"^{name} = .*mm: must be [^.]*0 mm$"):

@@ -75,6 +75,14 @@ def test_drafts_mesh_follows_long_chambers():
     assert angle(draft) == pytest.approx(2.44, rel=0.1)
 
 
+def test_a_wall_ten_times_thinner_than_its_neighbours():
+    geometry = replace(BASE, n_cells=2, wall_lengths=(2.2, 0.22, 2.2))
+    path = inflated(geometry)
+    finer = Spar(geometry, fidelity="standard", comm=MPI.COMM_SELF).inflate(upper=0.02)
+    assert angle(path) == pytest.approx(angle(finer), rel=0.1)
+    assert path[-1].external_work_Nmm == pytest.approx(path[-1].energy_Nmm, rel=2e-2)
+
+
 def test_a_hundred_steps_end_where_one_does():
     assert angle(inflated(steps=100)) == pytest.approx(angle(inflated()), rel=1e-8)
 

@@ -94,6 +94,14 @@ def test_what_a_cell_does_not_model_is_refused(name, value):
         cell(**{name: value})
 
 
+@pytest.mark.parametrize("fidelity", ["cell", "instant"])
+def test_walls_that_differ_are_refused(fidelity):
+    geometry = replace(SparGeometry.validation(1), wall_lengths=(1.0, 2.0))
+    with pytest.raises(InputError, match=r"^wall_lengths = \(1.0, 2.0\) mm: must be None where"):
+        Spar(geometry, fidelity=fidelity)
+    assert Spar(geometry, fidelity="auto", tolerance=0.5).fidelity == "draft"
+
+
 def test_another_geometry_is_another_angle():
     thick = Spar(replace(SparGeometry.validation(1), top_thickness=1.4), fidelity="cell", **MESH)
     assert angle(thick.inflate(upper=0.02)) < 0.9 * angle(cell().inflate(upper=0.02))
