@@ -219,10 +219,27 @@ def _alone_in_cache() -> Iterator[None]:
             folder.mkdir(parents=True, exist_ok=True)
             lock = held.enter_context(open(folder / "morphing-wing.lock", "w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
-            for source in folder.glob("*.c"):
-                if not source.with_suffix(".c.cached").exists():
-                    source.unlink()
+            if _cleared.get(folder) != _changed(folder):
+                _clear(folder)
         yield
+        with suppress(OSError):
+            _cleared[folder] = _changed(folder)
+
+
+_cleared: dict[Path, int] = {}
+"""When each cache last changed that had nothing unfinished in it."""
+
+
+def _changed(folder: Path) -> int:
+    return folder.stat().st_mtime_ns
+
+
+def _clear(folder: Path) -> None:
+    """Remove what was not finished; the cache may hold thousands of files."""
+    names = set(os.listdir(folder))
+    for name in names:
+        if name.endswith(".c") and f"{name}.cached" not in names:
+            (folder / name).unlink()
 
 
 @contextmanager

@@ -89,6 +89,9 @@ def pick(
     for name, error in known.items():
         if error <= tolerance:
             return Pick(name, error)
+    if not known:
+        raise InputError(f"fidelity = {AUTO!r}: must be one of {', '.join(rungs)} until 'tradeoff "
+                         f"{scene} --keep' has measured them")
     best = min(known, key=known.__getitem__)
     raise InputError(f"tolerance = {tolerance:g}: must be at least {known[best]:.2g}, the measured "
                      f"error of the most accurate rung, {best}")

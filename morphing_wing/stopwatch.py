@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -60,8 +61,9 @@ class Stopwatch:
 
 
 def forget_peak() -> None:
-    """Let the peak of this process's memory count from now on, where the kernel can (Linux)."""
-    with contextlib.suppress(OSError):
+    """Let the peak of this process's memory count from now on, where that is possible (Linux)."""
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).malloc_trim(0)  # what was freed goes back first
         Path("/proc/self/clear_refs").write_text("5")
 
 

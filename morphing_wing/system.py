@@ -15,7 +15,7 @@ import numpy as np
 import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
-from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse import coo_matrix, csr_matrix, vstack
 
 from . import compat
 from .blocks import Block
@@ -280,10 +280,9 @@ class EquilibriumSystem:
         """Return this rank's rows of the pattern; that of the independent blocks is found once."""
         coupled = [max(i, j) >= self._n_independent for i, j, _ in self._tangents]
         if self._lasting_pattern is None:
-            owned = np.arange(self._first, self._first + self.n_owned)
-            found = [self._independent_pattern(*tangent)
-                     for tangent, is_so in zip(self._tangents, coupled, strict=True) if not is_so]
-            self._lasting_pattern = self._as_rows([(owned, owned), *found])
+            self._lasting_pattern = self._independent_rows(
+                [tangent for tangent, is_so in zip(self._tangents, coupled, strict=True)
+                 if not is_so])
         found = [self._local_pattern(i, j) for (i, j, _), is_so in
                  zip(self._tangents, coupled, strict=True) if is_so]
         csr = self._lasting_pattern + self._as_rows(found) if found else self._lasting_pattern
@@ -294,18 +293,35 @@ class EquilibriumSystem:
         row = np.concatenate([rows for rows, _ in found]) - self._first
         column = np.concatenate([columns for _, columns in found])
         shape = (self.n_owned, self.size)
-        csr = coo_matrix((np.ones(len(row), dtype=np.int8), (row, column)), shape=shape).tocsr()
-        csr.data[:] = 1  # what stands there often must not overflow to nothing
-        return csr
+        return coo_matrix((np.ones(len(row), dtype=bool), (row, column)), shape=shape).tocsr()
 
-    def _independent_pattern(self, i: int, j: int, form: Any) -> tuple[np.ndarray, np.ndarray]:
+    def _independent_rows(self, tangents: Sequence[tuple[int, int, Any]]) -> csr_matrix:
+        """Return the pattern of forms of independent blocks, the diagonal with it."""
+        start, rows = self._first, []
+        for b, block in enumerate(self.blocks[: self._n_independent]):
+            n = block.n_owned
+            part = csr_matrix((np.ones(n, dtype=bool), start + np.arange(n), np.arange(n + 1)),
+                              shape=(n, self.size))
+            for i, j, form in tangents:
+                if i == b:
+                    part = part + self._independent_pattern(i, j, form)
+            rows.append(part)
+            start += n
+        return vstack(rows, format="csr") if len(rows) > 1 else rows[0]
+
+    def _independent_pattern(self, i: int, j: int, form: Any) -> csr_matrix:
         pattern = compat.sparsity(form)
         indptr, indices, _ = pattern.getValuesCSR()
-        row = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
         pattern.destroy()
-        row, column = self._of_rows(i)[row], self._of_columns(j)[indices]
-        present = (row >= 0) & (column >= 0)
-        return row[present], column[present]
+        column = self._of_columns(j)[indices]
+        present = column >= 0
+        if not present.all():
+            kept = np.concatenate([[0], np.cumsum(present)])
+            column, indptr = column[present], kept[indptr]
+        csr = csr_matrix((np.ones(len(column), dtype=bool), column, indptr),
+                         shape=(len(indptr) - 1, self.size))
+        unknown = self._of_rows(i) >= 0
+        return csr if unknown.all() else csr[np.flatnonzero(unknown)]
 
     def _of_rows(self, b: int) -> np.ndarray:
         """Return the system's number of each dof of a block that this rank owns."""

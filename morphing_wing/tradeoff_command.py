@@ -70,14 +70,13 @@ def _check_kept(file: pathlib.Path) -> None:
 
 
 def _tell(rows: list[dict[str, Any]], found: dict[str, Any]) -> None:
-    """Print a row as it comes, under the name of its case where that is new."""
-    case = [f"{found[name]}" for name in ("case", "n_cells", "load")]
-    if not rows or [f"{rows[-1][name]}" for name in ("case", "n_cells", "load")] != case:
-        typer.echo("\n{}, {} cells, {}".format(*case))
-        typer.echo("  " + " ".join(f"{name:>10}" for name in FORMS))
+    """Print a row as it comes, the first one under the names of the columns."""
+    if not rows:
+        typer.echo(f"{'case':30} " + " ".join(f"{name:>10}" for name in FORMS))
     cells = ("" if found[name] is None else form.format(found[name])
              for name, form in FORMS.items())
-    typer.echo("  " + " ".join(f"{cell:>10}" for cell in cells))
+    case = "{case}, N = {n_cells}, {load}".format(**found)
+    typer.echo(f"{case:30} " + " ".join(f"{cell:>10}" for cell in cells))
 
 
 def _write(

@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 from ..geometry.spar import SparGeometry, SparMeshing
 from ..ladder import LADDERS
+from ..path import Path
 from ..spar import Spar
 from .trial import row
 
@@ -47,43 +48,62 @@ def rows(comm: MPI.Comm, everything: bool) -> Iterator[dict[str, Any]]:
         Spar(SparGeometry.validation(1), fidelity=fidelity, comm=comm).inflate(upper=1e-3)
     for name, shape in GEOMETRIES.items() if everything else [("3.3", _VALIDATION)]:
         pressures = PRESSURES if everything else PRESSURES[:1]
-        whole = _angles(Spar(replace(shape, n_cells=WHOLE), fidelity="reference", comm=comm),
-                        pressures)
-        cells = [_angles(Spar(shape, fidelity="cell", meshing=SparMeshing.cornered(level),
-                              comm=comm), pressures) for level in (FINER, 1)]
+        long_ones = _Finest(comm, shape, pressures)
         for n in COUNTS if everything else COUNTS[:1]:
             geometry = replace(shape, n_cells=n)
-            few = whole if n >= WHOLE else _angles(
-                Spar(geometry, fidelity="reference", comm=comm), pressures)
-            finest = [a + (n * fine - min(n, WHOLE) * coarse) / shape.n_cells
-                      for a, fine, coarse in zip(few, *cells, strict=True)]
+            case = {"scene": "spar", "case": name, "n_cells": n}
+            finest = long_ones.angles(n)
             for fidelity in LADDERS["spar"]:
                 if fidelity == "reference" and n > WHOLE and name != "3.3":
                     continue  # minutes, and as far off as elsewhere
-                yield from _measured(comm, name, geometry, fidelity, pressures, finest)
+                found, path = row(
+                    case | {"load": f"{1000 * pressures[0]:g} kPa"},
+                    partial(Spar, geometry, fidelity=fidelity, comm=comm),
+                    partial(_inflated, pressures[0]), ANGLE)
+                yield found | {"error": found["angle_deg"] / finest[0] - 1.0}
+                if fidelity != "reference" or n <= WHOLE:
+                    yield from _led_on(path.scene, found, pressures[1:], finest[1:])
+
+
+def _inflated(pressure: float, scene: Spar) -> Path:
+    return scene.inflate(upper=pressure)
 
 
 def _angles(scene: Spar, pressures: Sequence[float]) -> list[float]:
     path = scene.inflate(upper=pressures)
+    assert path.converged, path.reason
     return [state.measures[ANGLE] for state in path if state.requested]
 
 
-def _measured(
-    comm: MPI.Comm,
-    name: str,
-    geometry: SparGeometry,
-    fidelity: str,
-    pressures: Sequence[float],
-    finest: Sequence[float],
+def _led_on(
+    scene: Spar, found: dict[str, Any], pressures: Sequence[float], finest: Sequence[float]
 ) -> Iterator[dict[str, Any]]:
-    case = {"scene": "spar", "case": name, "n_cells": geometry.n_cells}
-    found, path = row(
-        case | {"load": f"{1000 * pressures[0]:g} kPa"},
-        partial(Spar, geometry, fidelity=fidelity, comm=comm),
-        lambda scene: scene.inflate(upper=pressures[0]), ANGLE)
-    yield found | {"error": found["angle_deg"] / finest[0] - 1.0}
-    for pressure, exact in zip(pressures[1:], finest[1:], strict=True):
-        [angle] = _angles(path.scene, [pressure])
+    """Lead a scene on to more pressures, of which only the angles count."""
+    for pressure, exact in zip(pressures, finest, strict=True):
+        [angle] = _angles(scene, [pressure])
         costs = dict.fromkeys(("iterations", "assembly_s", "factor_s", "seconds", "peak_MB"))
         yield found | costs | {"load": f"{1000 * pressure:g} kPa", "angle_deg": angle,
                                "error": angle / exact - 1.0}
+
+
+class _Finest:
+    """Angles of spars of any length on the finest mesh: a whole spar, then more of its cells."""
+
+    def __init__(self, comm: MPI.Comm, shape: SparGeometry, pressures: Sequence[float]) -> None:
+        self._comm, self._shape, self._pressures = comm, shape, pressures
+        self._fine, self._coarse = (
+            [angle / shape.n_cells for angle in _angles(
+                Spar(shape, fidelity="cell", meshing=SparMeshing.cornered(level), comm=comm),
+                pressures)]
+            for level in (FINER, 1))
+        self._whole = self._few(WHOLE)
+
+    def _few(self, n: int) -> list[float]:
+        geometry = replace(self._shape, n_cells=n)
+        return _angles(Spar(geometry, fidelity="reference", comm=self._comm), self._pressures)
+
+    def angles(self, n: int) -> list[float]:
+        """Return the angle in degrees of n chambers at each pressure."""
+        few = self._whole if n >= WHOLE else self._few(n)
+        return [angle + n * fine - min(n, WHOLE) * coarse for angle, fine, coarse
+                in zip(few, self._fine, self._coarse, strict=True)]

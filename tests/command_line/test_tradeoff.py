@@ -21,7 +21,7 @@ def test_rib_is_measured_now(tmp_path, capsys):
     assert len(summary["rows"]) == 8 and summary["scene"] == "rib"
     assert (tmp_path / "tradeoff.png").stat().st_size > 10_000
     said = capsys.readouterr().out
-    assert "3.3, flush, 6 cells, 1 N mm" in said and str(tmp_path) in said
+    assert "3.3, flush, N = 6, 1 N mm" in said and str(tmp_path) in said
 
 
 @pytest.mark.quick

@@ -31,6 +31,12 @@ def test_auto_takes_the_cheapest_that_was_accurate_enough(made_up, n_cells, tole
     assert (found.fidelity, found.error) == (rung, error)
 
 
+def test_without_figures_auto_is_refused(monkeypatch):
+    monkeypatch.setattr(ladder, "_measured", lambda scene: [])
+    with pytest.raises(InputError, match="until 'tradeoff wing --keep' has measured them"):
+        pick("wing", "auto", 0.1)
+
+
 def test_a_named_rung_keeps_its_name_and_tells_its_error(made_up):
     assert pick("spar", "draft", n_cells=2) == ladder.Pick("draft", 0.06)
     assert pick("spar", "reference", n_cells=2).error is None
