@@ -7,8 +7,10 @@ import subprocess
 import sys
 
 
-def in_a_child(script, *case, ranks=1):
+def in_a_child(script, *case, ranks=1, environment=None):
     """Run ``script --one CASE`` and return the figures that it prints, on any number of ranks.
+
+    ``environment`` holds settings that come before those of the shell.
 
     Raises
     ------
@@ -22,18 +24,20 @@ def in_a_child(script, *case, ranks=1):
     command = [sys.executable, script, "--one", *map(str, case)]
     if ranks > 1:
         command = ["mpirun", "-n", str(ranks), *command]
-    done = subprocess.run(command, capture_output=True, text=True, env=allowed | os.environ)
+    done = subprocess.run(command, capture_output=True, text=True,
+                          env=allowed | os.environ | (environment or {}))
     if done.returncode:
         raise RuntimeError(done.stderr[-2000:])
     return json.loads(done.stdout.splitlines()[-1])
 
 
 def say(comm, figures):
-    """Print a case's figures as JSON, on one rank."""
-    if comm.rank == 0:
+    """Print a case's figures as JSON, on one rank; ``comm`` is None for codes without MPI."""
+    if comm is None or comm.rank == 0:
         print(json.dumps(figures), flush=True)
 
 
 def peak_MB(comm):
-    """Return the peak of memory in MB, summed over the ranks."""
-    return comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    """Return the peak of memory in MB, summed over the ranks; ``comm`` is None without MPI."""
+    mine = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return mine if comm is None else comm.allreduce(mine)
