@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from morphing_wing.errors import InputError, require
 
@@ -57,6 +56,8 @@ class Aerofoil:
 
     def x_where_half_thickness(self, value: float, front: bool) -> float:
         """Return x in mm, before or behind the thickest point, where half the thickness is so."""
+        from scipy.optimize import brentq  # a fifth of a second, which a spar need not wait for
+
         thickest = 0.3 * self.chord
         bounds = (0.0, thickest) if front else (thickest, self.chord)
         return float(brentq(lambda x: float(self.half_thickness(x)) - value, *bounds))

@@ -22,6 +22,7 @@ import ufl
 from dolfinx import fem
 from mpi4py import MPI
 from petsc4py import PETSc
+from scipy.sparse import bsr_matrix, csr_matrix
 
 # Hyperelastic kernels are long; optimising them halves assembly. -Ofast would defeat NaN checks.
 _JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"], "cffi_libraries": ["m"]}
@@ -278,8 +279,32 @@ def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:
     _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [], True)
 
 
-def sparsity(bilinear: Any) -> PETSc.Mat:
-    """Return a matrix with the pattern of a compiled bilinear form."""
+def sparsity(bilinear: Any) -> csr_matrix:
+    """Return which of its entries a compiled bilinear form sets: this rank's rows, all columns.
+
+    In DOLFINx's own numbers of dofs, of a global numbering that has rank after rank.
+    """
+    pattern = fem.create_sparsity_pattern(bilinear)
+    (pattern.finalize if hasattr(pattern, "finalize") else pattern.assemble)()
+    rows = pattern.index_map(0)
+    if rows.size_local < rows.size_global and not hasattr(pattern, "column_index_map"):
+        return _sparsity_by_petsc(bilinear)  # some do not tell what ghost columns stand for
+    graph = pattern.graph
+    columns, starts = (graph.array, graph.offsets) if hasattr(graph, "array") else graph
+    if rows.size_local < rows.size_global:
+        held = pattern.column_index_map()
+        number = np.concatenate([np.arange(*held.local_range), held.ghosts])
+        columns = number[columns]
+    n_columns = pattern.index_map(1).size_global
+    sizes = [space.dofmap.index_map_bs for space in bilinear.function_spaces]
+    shape = (rows.size_local * sizes[0], n_columns * sizes[1])
+    if sizes == [1, 1]:
+        return csr_matrix((np.ones(len(columns), dtype=bool), columns, starts), shape=shape)
+    ones = np.ones((len(columns), *sizes), dtype=bool)
+    return bsr_matrix((ones, columns, starts), shape=shape).tocsr()
+
+
+def _sparsity_by_petsc(bilinear: Any) -> csr_matrix:
     try:
         matrix = _cpp_petsc().create_matrix(_cpp(bilinear))
     except TypeError:
@@ -288,7 +313,10 @@ def sparsity(bilinear: Any) -> PETSc.Mat:
     # What is never set is squeezed out of a PETSc matrix, so set everything once.
     _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [])
     matrix.assemble()
-    return matrix
+    starts, columns, _ = matrix.getValuesCSR()
+    shape = (len(starts) - 1, matrix.getSize()[1])
+    matrix.destroy()
+    return csr_matrix((np.ones(len(columns), dtype=bool), columns, starts), shape=shape)
 
 
 def _cpp_petsc() -> Any:

@@ -11,16 +11,18 @@ import os
 import pathlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-import pandas as pd
 
 from morphing_wing.errors import InputError
 from morphing_wing.renderer import or_warned
 from morphing_wing.root import on_root, write_whole
 from morphing_wing.summary import summary
 from morphing_wing.targets import load_words
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 __all__ = ["Path", "State", "load_table"]
 
@@ -151,6 +153,8 @@ class Path(Sequence[State]):
         ``newton_iterations``, ``energy_Nmm``, ``external_work_Nmm``, ``negative_pivots``,
         ``step_seconds``, ``requested``, and ``contact`` (True: fiction from here, see `State`).
         """
+        import pandas as pd  # a third of a second, not needed to solve
+
         rows = [self._row(state) for state in self._states]
         frame = pd.DataFrame(rows, index=pd.RangeIndex(len(rows), name="step"))
         if "contact" in frame:
@@ -230,6 +234,8 @@ class Path(Sequence[State]):
 
 def load_table(directory: str | os.PathLike) -> pd.DataFrame:
     """Read back the table that `Path.save` wrote into a folder (or the ``.csv`` file itself)."""
+    import pandas as pd
+
     file = pathlib.Path(directory)
     file = file / "table.csv" if file.is_dir() else file
     if not file.is_file():

@@ -256,11 +256,7 @@ class EquilibriumSystem:
         csr = self._pattern()
         A = PETSc.Mat().createAIJ(
             ((self.n_owned, None), (self.n_owned, None)),
-            csr=(
-                csr.indptr.astype(PETSc.IntType),
-                csr.indices.astype(PETSc.IntType),
-                np.zeros(csr.nnz),
-            ),
+            csr=(csr.indptr.astype(PETSc.IntType), csr.indices.astype(PETSc.IntType)),
             comm=self.comm,
         )
         A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
@@ -300,20 +296,18 @@ class EquilibriumSystem:
         start, rows = self._first, []
         for b, block in enumerate(self.blocks[: self._n_independent]):
             n = block.n_owned
-            part = csr_matrix((np.ones(n, dtype=bool), start + np.arange(n), np.arange(n + 1)),
-                              shape=(n, self.size))
-            for i, j, form in tangents:
-                if i == b:
-                    part = part + self._independent_pattern(i, j, form)
-            rows.append(part)
+            diagonal = csr_matrix((np.ones(n, dtype=bool), start + np.arange(n), np.arange(n + 1)),
+                                  shape=(n, self.size))
+            parts = [self._independent_pattern(*tangent) for tangent in tangents if tangent[0] == b]
+            # Small ones first: only the last sum is of the size of the largest.
+            rows.append(sum(sorted(parts, key=lambda part: part.nnz), start=diagonal))
             start += n
         return vstack(rows, format="csr") if len(rows) > 1 else rows[0]
 
     def _independent_pattern(self, i: int, j: int, form: Any) -> csr_matrix:
         pattern = compat.sparsity(form)
-        indptr, indices, _ = pattern.getValuesCSR()
-        pattern.destroy()
-        column = self._of_columns(j)[indices]
+        column = self._of_columns(j).astype(PETSc.IntType)[pattern.indices]
+        indptr = pattern.indptr
         present = column >= 0
         if not present.all():
             kept = np.concatenate([[0], np.cumsum(present)])
