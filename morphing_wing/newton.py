@@ -61,6 +61,10 @@ class NewtonResult:
 class Newton:
     """SNES on one reused matrix with MUMPS LDL^T; every option is open under ``prefix``.
 
+    A solve from a state that the last one found begins with that one's factor: it costs nothing,
+    and the tangent of that state under the new load is near to singular for some loads. Not so
+    where mass or the way to touching limits steps: which way a skin buckles depends on the first.
+
     Parameters
     ----------
     system
@@ -99,6 +103,8 @@ class Newton:
         self._before_tangent = before_tangent and weakref.WeakMethod(before_tangent)
         self._admissible = admissible and weakref.WeakMethod(admissible)
         self._tolerance = 0.0
+        self._plain = regularisation is None and admissible is None
+        self._near = False  # whether the factor is of a state that was found, or nearly so
         self._b = system.x.duplicate()
         self._x = system.x.duplicate()
         self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
@@ -147,6 +153,7 @@ class Newton:
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
         iterations = self._snes.getIterationNumber()
+        self._near = self._plain and reason > 0
         if reason > 0 and (self.factor.amount > 0.0 or iterations == 0):
             # The last factor was of K + a M, which hides what K itself says of stability; or it is
             # of another state, perhaps one of a solve that failed.
@@ -176,6 +183,7 @@ class Newton:
         """
         self._assemble(0)
         self.factor.inspect(self.system.matrix)
+        self._near = self._plain and self.factor.error >= 0
         return self.factor
 
     def _words(self, reason: int) -> str:
@@ -194,13 +202,20 @@ class Newton:
 
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self.system.pull(x)
-        self._assemble(snes.getIterationNumber())
-        self.factor.stale = True
+        iteration = snes.getIterationNumber()
+        self.factor.stale = not (self._near and iteration == 0 and self.factor.exists)
+        if self.factor.stale:
+            self._assemble(iteration)
+        else:
+            self._announce(iteration)
 
     def _assemble(self, iteration: int) -> None:
+        self._announce(iteration)
+        self.system.tangent()
+
+    def _announce(self, iteration: int) -> None:
         if self._before_tangent is not None:
             self._before_tangent()(iteration)
-        self.system.tangent()
 
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reason = PETSc.SNES.ConvergedReason
