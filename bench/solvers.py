@@ -23,15 +23,14 @@ import pandas as pd
 from child import in_a_child, peak_MB, say
 from rich.console import Console
 from rich.table import Table
+from tangents import PRESSURE, SPARS, WINGS, loaded, spar, wing, written
 
 import morphing_wing  # noqa: F401  (before PETSc: it names the BLAS's kernel)
 
-PRESSURE = 0.02
-SPARS = {40: (1, 7), 200: (2, 9), 800: (4, 7)}  # thousands of unknowns: level of grading, chambers
 MUMPS = {"mat_mumps_icntl_13": 1}  # as the package has it
 BLR = MUMPS | {"mat_mumps_icntl_35": 2}
 SOLVERS = {
-    "LDL' (default)": MUMPS,
+    "LDL'": MUMPS,
     "LDL', AMD": MUMPS | {"mat_mumps_icntl_7": 0},
     "LDL', AMF": MUMPS | {"mat_mumps_icntl_7": 2},
     "LDL', SCOTCH": MUMPS | {"mat_mumps_icntl_7": 3},
@@ -44,16 +43,15 @@ SOLVERS = {
     "SuperLU_DIST": {"pc_type": "lu", "pc_factor_mat_solver_type": "superlu_dist"},
     "iterative": {},
 }
-DEFAULT, ITERATIVE = "LDL' (default)", "iterative"
+DEFAULT, ITERATIVE = "LDL'", "iterative"  # the package's own and the other kind
 ORDERINGS = {0: "AMD", 2: "AMF", 3: "SCOTCH", 4: "PORD", 5: "METIS", 6: "QAMD"}
 RUNS = [(name, 1, 1) for name in SOLVERS] + [(DEFAULT, 2, 1), (DEFAULT, 1, 2),
                                              ("SuperLU_DIST", 2, 1)]
 LARGE = [(DEFAULT, 2, 1), (ITERATIVE, 1, 1)]
-COLUMNS = {"solver": "{}", "unknowns": "{:,}", "ranks": "{}", "threads": "{}", "ordering": "{}",
-           "analysis_s": "{:.2f}", "factor_s": "{:.2f}", "solve_s": "{:.2f}", "iterations": "{}",
-           "peak_MB": "{:,.0f}", "factor_nonzeros": "{:,.1f} M", "residual": "{:.0e}",
-           "error": "{:.0e}"}
-WINGS = ("standard", "graded", "finer")  # meshes of quadratic elements
+COLUMNS = {"solver": "{}", "unknowns": "{:,}", "ranks": "{}", "threads": "{}",
+           "ordering": "{}", "analysis_s": "{:.2f}", "factor_s": "{:.2f}", "solve_s": "{:.2f}",
+           "iterations": "{}", "peak_MB": "{:,.0f}", "factor_entries": "{:,.1f} M",
+           "residual": "{:.0e}", "error": "{:.0e}"}
 
 
 def main():
@@ -78,26 +76,28 @@ def main():
     systems += ["wing-standard"] * arguments.wing
     rows = []
     for system in systems:
-        rows += compared(system, arguments.threaded_blas)
-        if arguments.out:
-            pd.DataFrame(rows).to_csv(arguments.out, index=False)
+        for row in compared(system, arguments.threaded_blas):
+            rows.append(row)
+            if arguments.out:
+                pd.DataFrame(rows).to_csv(arguments.out, index=False)
     if rows:
+        for row in {row["system"]: row for row in rows}.values():
+            print(f"{row['system']}: its assembly takes {row['assembled_peak_MB']:,.0f} MB")
         shown("Linear solvers on one tangent at rest under 20 kPa", COLUMNS, rows)
         print(growth([row for row in rows if row["system"].startswith("spar")]))
     if arguments.newton:
         found = [in_a_child(__file__, "newton", 200, ranks=ranks) for ranks in (1, 2)]
-        shown("Spar from 0 to 20 kPa in one step", dict.fromkeys(found[0], "{:,}"), found)
+        shown("Spar from 0 to 20 kPa in one step", dict.fromkeys(found[0], "{}"), found)
     if arguments.wing:
         found = [in_a_child(__file__, "memory", mesh) for mesh in WINGS]
-        shown("The wing's memory, one rank", dict.fromkeys(found[0], "{:,}"), found)
+        shown("The wing's memory, one rank", dict.fromkeys(found[0], "{}"), found)
         print(largest(found))
 
 
 def compared(system, threaded_blas):
-    """Return the figures of each solver on one system."""
+    """Yield the figures of each solver on one system."""
     with tempfile.TemporaryDirectory() as folder:
         made = in_a_child(__file__, "write", system, folder)
-        rows = []
         for name, ranks, threads in LARGE if system == "spar-800" else RUNS:
             if threads > 1 and threaded_blas is None or name == ITERATIVE and "wing" in system:
                 continue
@@ -109,30 +109,8 @@ def compared(system, threaded_blas):
                 found = in_a_child(__file__, "solve", name, folder, ranks=ranks,
                                    environment=environment)
             except RuntimeError as error:
-                found = {"ordering": "failed", "reason": str(error)[-200:]}
-            rows.append(head | made | found)
-    return rows
-
-
-def written(system, folder):
-    """Write matrix and right-hand side of a system, and what an iterative solver has to know."""
-    import numpy as np
-    from iterative import Parts
-    from mpi4py import MPI
-    from petsc4py import PETSc
-    from scipy.sparse import save_npz
-
-    kind, size = system.split("-")
-    scene = spar(int(size)) if kind == "spar" else wing(size)
-    matrix, b = loaded(scene)
-    with_matrix = PETSc.Viewer().createBinary(f"{folder}/system", "w", comm=MPI.COMM_SELF)
-    matrix.view(with_matrix)
-    b.view(with_matrix)
-    if kind == "spar":
-        parts = Parts.of(scene)
-        np.savez(f"{folder}/parts", u=parts.u, p=parts.p, moduli=[parts.mu, parts.kappa])
-        save_npz(f"{folder}/up", parts.up)
-    say(MPI.COMM_SELF, {"unknowns": scene.dofs, "assembled_peak_MB": peak_MB(MPI.COMM_SELF)})
+                found = {"ordering": "failed", "reason": str(error)}
+            yield head | made | found
 
 
 def solved(name, folder):
@@ -164,7 +142,7 @@ def solved(name, folder):
         ordering = factor.getMumpsInfog(7)
         entries = factor.getMumpsInfog(35)  # after compression
         figures |= {"ordering": ORDERINGS.get(ordering, ordering),
-                    "factor_nonzeros": entries / 1e6 if entries > 0 else -float(entries)}
+                    "factor_entries": entries / 1e6 if entries > 0 else -float(entries)}
     residual = matrix.createVecLeft()
     matrix.mult(x, residual)
     residual.axpy(-1.0, b)
@@ -178,6 +156,7 @@ def solved(name, folder):
     elif name == DEFAULT:
         x.view(PETSc.Viewer().createBinary(str(reference), "w", comm=comm))
     say(comm, figures)
+    solver.destroy()  # else Python's parts of it may outlive PETSc
 
 
 def direct(matrix, options):
@@ -217,39 +196,6 @@ def iterative(matrix, folder):
     solver.getPC().setPythonContext(AugmentedMultigrid(matrix, parts))
     solver.setFromOptions()
     return solver
-
-
-def spar(size):
-    """Return the half spar of some thousand unknowns."""
-    from morphing_wing.geometry.spar import SparGeometry, SparMeshing
-    from morphing_wing.spar import Spar
-
-    level, n_cells = SPARS[size]
-    return Spar(SparGeometry.validation(n_cells), meshing=SparMeshing.graded(level))
-
-
-def wing(mesh):
-    """Return the wing of quadratic elements on a mesh."""
-    from morphing_wing.geometry.hexmesh import two_sided
-    from morphing_wing.geometry.wing import WingGeometry
-    from morphing_wing.geometry.wing_mesh import WingMeshing
-    from morphing_wing.wing import Wing
-
-    meshings = {"standard": WingMeshing.coarse(), "graded": WingMeshing.graded(),
-                "finer": WingMeshing.of(cavity_width=two_sided(8, 2.0), pocket=12, wall_length=2,
-                                        cavity_length=two_sided(4, 3.0), cavity_height=2)}
-    return Wing(WingGeometry.prototype(), fidelity="standard", meshing=meshings[mesh])
-
-
-def loaded(scene):
-    """Return tangent and residual of a scene at rest under pressure."""
-    scene._use(("upper_MPa",))
-    scene.set_load({name: PRESSURE for name in scene.loads})
-    scene._take_up_contact()
-    scene.before_tangent(0)
-    at_rest, b = scene.system.x.duplicate(), scene.system.x.duplicate()
-    scene.system.residual(at_rest, b)
-    return scene.system.tangent(), b
 
 
 def newton(size):
@@ -323,7 +269,9 @@ def shown(title, columns, rows):
     table = Table(title=title)
     for name in columns:
         table.add_column(name.replace("_", " "), justify="right")
-    for row in rows:
+    for before, row in zip([rows[0], *rows], rows, strict=False):
+        if before.get("system") != row.get("system"):
+            table.add_section()
         table.add_row(*("" if row.get(name) is None else form.format(row[name])
                         for name, form in columns.items()))
     Console(width=150).print(table)
