@@ -87,7 +87,7 @@ def main():
         print(growth([row for row in rows if row["system"].startswith("spar")]))
     if arguments.newton:
         found = [in_a_child(__file__, "newton", 200, ranks=ranks) for ranks in (1, 2)]
-        shown("Spar from 0 to 20 kPa in one step", dict.fromkeys(found[0], "{}"), found)
+        shown("Spar from 0 to 20 kPa", dict.fromkeys(found[0], "{}"), found)
     if arguments.wing:
         found = [in_a_child(__file__, "memory", mesh) for mesh in WINGS]
         shown("The wing's memory, one rank", dict.fromkeys(found[0], "{}"), found)
@@ -213,7 +213,8 @@ def newton(size):
     seconds = {"mesh": ready - clock, "assembly": timed.seconds["assembly"],
                "factor": timed.seconds["factor"], "solve in all": done - ready}
     say(comm, {"ranks": comm.size, "unknowns": scene.dofs,
-               "iterations": sum(state.newton_iterations for state in path),
+               "steps": len(path), "iterations": sum(state.newton_iterations for state in path),
+               "factorisations": scene.newton.factor.factorisations,
                **{f"{name}, s": round(value, 1) for name, value in seconds.items()},
                "angle, deg": round(path[-1].measures["span_angle_deg"], 6),
                "peak MB": round(peak_MB(comm))})
