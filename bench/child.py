@@ -10,7 +10,7 @@ import sys
 def in_a_child(script, *case, ranks=1, environment=None):
     """Run ``script --one CASE`` and return the figures that it prints, on any number of ranks.
 
-    ``environment`` holds settings that come before those of the shell.
+    ``environment`` goes over the present one.
 
     Raises
     ------
@@ -24,8 +24,8 @@ def in_a_child(script, *case, ranks=1, environment=None):
     command = [sys.executable, script, "--one", *map(str, case)]
     if ranks > 1:
         command = ["mpirun", "-n", str(ranks), *command]
-    done = subprocess.run(command, capture_output=True, text=True,
-                          env=allowed | os.environ | (environment or {}))
+    own = {name: str(value) for name, value in (environment or {}).items()}
+    done = subprocess.run(command, capture_output=True, text=True, env=allowed | os.environ | own)
     if done.returncode:
         raise RuntimeError(done.stderr[-2000:])
     return json.loads(done.stdout.splitlines()[-1])
