@@ -50,6 +50,8 @@ CASES |= {f"chambers {length:g} mm long": (
 CASES |= {f"chambers {width:g} mm wide": (
     replace(BASE, cavity_width=width), DRAGON_SKIN_30, 0.02, 1) for width in (2.0, 140.0)}
 CASES |= {f"{n} cells": (replace(BASE, n_cells=n), DRAGON_SKIN_30, 0.02, 1) for n in (1, 60)}
+CASES["a wall 10 times thinner than its neighbours"] = (
+    replace(BASE, wall_lengths=(2.2, 0.22, 2.2)), DRAGON_SKIN_30, 0.02, 1)
 LIKE_THE_FIRST = ("C10, pressure", "in ")
 
 
