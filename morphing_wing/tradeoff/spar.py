@@ -57,12 +57,13 @@ def rows(comm: MPI.Comm, everything: bool) -> Iterator[dict[str, Any]]:
                 if fidelity == "reference" and n > WHOLE and name != "3.3":
                     continue  # minutes, and as far off as elsewhere
                 found, path = row(
-                    case | {"load": f"{1000 * pressures[0]:g} kPa"},
+                    comm, case | {"load": f"{1000 * pressures[0]:g} kPa"},
                     partial(Spar, geometry, fidelity=fidelity, comm=comm),
                     partial(_inflated, pressures[0]), ANGLE)
                 yield found | {"error": found["angle_deg"] / finest[0] - 1.0}
                 if fidelity != "reference" or n <= WHOLE:
                     yield from _led_on(path.scene, found, pressures[1:], finest[1:])
+                del path  # its scene would count in the memory of the next
 
 
 def _inflated(pressure: float, scene: Spar) -> Path:

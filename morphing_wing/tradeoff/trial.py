@@ -7,6 +7,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from mpi4py import MPI
+
+from ..burial import bury
 from ..path import Path
 from ..scene import Scene
 from ..stopwatch import Stopwatch, forget_peak, peak_MB
@@ -15,12 +18,18 @@ __all__ = ["row"]
 
 
 def row(
-    case: dict[str, Any], build: Callable[[], Scene], lead: Callable[[Scene], Path], angle: str
+    comm: MPI.Comm,
+    case: dict[str, Any],
+    build: Callable[[], Scene],
+    lead: Callable[[Scene], Path],
+    angle: str,
 ) -> tuple[dict[str, Any], Path]:
     """Build and solve a scene; return what it cost, without an error yet, and its path. Collective.
 
     Parameters
     ----------
+    comm
+        Of the scene.
     case
         What the row begins with: names and numbers of the case.
     build, lead
@@ -38,6 +47,7 @@ def row(
         The path; its scene can be led on.
     """
     gc.collect()
+    bury(comm)  # what PETSc held of the cases before
     forget_peak()
     clock = time.perf_counter()
     scene = build()
