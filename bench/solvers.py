@@ -201,7 +201,8 @@ def iterative(matrix, folder):
 def newton(size):
     """Solve a spar from rest under pressure, say where the seconds went."""
     from mpi4py import MPI
-    from spar import Stopwatch
+
+    from morphing_wing.stopwatch import Stopwatch
 
     spar(40).inflate(upper=1e-3)  # compiles
     comm, clock = MPI.COMM_WORLD, time.perf_counter()

@@ -9,7 +9,7 @@ import ufl
 
 def turned_z(turn: Any) -> Any:
     """Return z turned about x by radians, down where they are positive."""
-    return ufl.as_vector([0.0 * turn, -ufl.sin(turn), ufl.cos(turn)])
+    return ufl.as_vector([ufl.zero(), -ufl.sin(turn), ufl.cos(turn)])
 
 
 def plane_energy(stiffness: Any, normal: Any, distance: Any, position: Any) -> Any:

@@ -132,10 +132,12 @@ class SparGeometry:
         require(is_count(self.n_cells), "n_cells", self.n_cells, "", "a whole number of at least 1")
         given = self.wall_lengths
         if given is not None:
-            ok = isinstance(given, (tuple, list)) and len(given) == self.n_cells + 1 and all(
+            given = tuple(given) if isinstance(given, (list, np.ndarray)) else given
+            ok = isinstance(given, tuple) and len(given) == self.n_cells + 1 and all(
                 is_number(wall) and wall > 0 for wall in given)
             require(ok, "wall_lengths", given, "mm",
                     f"n_cells + 1 = {self.n_cells + 1} finite lengths greater than 0 mm")
+            object.__setattr__(self, "wall_lengths", tuple(map(float, given)))
 
     @classmethod
     def validation(cls, n_cells: int = 20) -> SparGeometry:

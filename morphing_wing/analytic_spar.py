@@ -12,8 +12,7 @@ envelope's change of volume,
 .. math:: 1.5\, h^2 w \, P(\theta) = \sum_i V_i \frac{d W(\lambda_i)}{d\theta}
     + \frac{E h_t^3 w}{12 (1 - \nu^2) l}\, \theta, \qquad \varphi_1 = N \theta ,
 
-half as much again as the cavity's own change of volume (Eq 10): the formula needs less pressure, or
-more, than a solved spar.
+half as much again as the cavity's own change of volume (Eq 10).
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ class SparFormula:
     Attributes
     ----------
     largest_pressure
-        In MPa, the formula's limit point; inf if it has none.
+        In MPa: the formula's limit point, or what turns a cell by half a radian.
     """
 
     def __init__(self, geometry: SparGeometry, material: Yeoh) -> None:
@@ -66,7 +65,7 @@ class SparFormula:
         rising = np.flatnonzero(np.diff(pressures) <= 0.0)
         last = rising[0] + 1 if len(rising) else len(pressures)
         self._pressures = pressures[:last]
-        self.largest_pressure = float(self._pressures[-1]) if len(rising) else np.inf
+        self.largest_pressure = float(self._pressures[-1])
 
     def pressure(self, turn: float | np.ndarray) -> float | np.ndarray:
         """Return the pressure in MPa that holds each turn of a cell, in radians (Eq 12)."""
@@ -79,7 +78,7 @@ class SparFormula:
     def turn(self, pressure: float) -> float:
         """Return the turn of a cell in radians under a pressure in MPa of at least 0.
 
-        Not a number past the limit point.
+        Not a number past the largest pressure.
         """
         above = int(np.searchsorted(self._pressures, pressure))
         if above == len(self._pressures):
@@ -90,7 +89,7 @@ class SparFormula:
                       xtol=1e-14)
 
     def angle(self, pressure: float) -> float:
-        """Return phi_1 in degrees under a pressure in MPa of at least 0; nan past the limit."""
+        """Return phi_1 in degrees under a pressure in MPa of at least 0; nan past the largest."""
         return float(np.degrees(self._n * self.turn(pressure)))
 
     def energy(self, turn: float) -> float:

@@ -279,19 +279,20 @@ def assemble_matrix(matrix: PETSc.Mat, bilinear: Any) -> None:
     _cpp_petsc().assemble_matrix(matrix, _cpp(bilinear), constants, coefficients, [], True)
 
 
-def sparsity(bilinear: Any) -> csr_matrix:
-    """Return which of its entries a compiled bilinear form sets: this rank's rows, all columns.
+def sparsity(comm: MPI.Comm, bilinear: Any) -> csr_matrix:
+    """Return which entries a compiled bilinear form sets: this rank's rows, all columns.
 
-    In DOLFINx's own numbers of dofs, of a global numbering that has rank after rank.
+    In DOLFINx's own numbers of dofs, of a global numbering that has rank after rank. Collective.
     """
     pattern = fem.create_sparsity_pattern(bilinear)
     (pattern.finalize if hasattr(pattern, "finalize") else pattern.assemble)()
-    rows = pattern.index_map(0)
-    if rows.size_local < rows.size_global and not hasattr(pattern, "column_index_map"):
+    if comm.size > 1 and not hasattr(pattern, "column_index_map"):
         return _sparsity_by_petsc(bilinear)  # some do not tell what ghost columns stand for
-    graph = pattern.graph
+    rows, graph = pattern.index_map(0), pattern.graph
     columns, starts = (graph.array, graph.offsets) if hasattr(graph, "array") else graph
-    if rows.size_local < rows.size_global:
+    starts = starts[: rows.size_local + 1]  # ghosts' rows come after
+    columns = columns[: starts[-1]]
+    if comm.size > 1:
         held = pattern.column_index_map()
         number = np.concatenate([np.arange(*held.local_range), held.ghosts])
         columns = number[columns]

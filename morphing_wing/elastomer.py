@@ -50,11 +50,6 @@ class Elastomer:
         Stretches along x and z with which the thin regions are built in; None: none.
     pinned
         An axis, and a vertex of the grid that does not move along it; (3,) in mm.
-
-    Attributes
-    ----------
-    cut
-        Normal and distance of a plane that cuts chambers open, in UFL; None: they are closed.
     """
 
     def __init__(
@@ -96,7 +91,6 @@ class Elastomer:
         self.iterate = Iterate(self.function) if self.p is None else None
         self.X = ufl.SpatialCoordinate(self.mesh)
         self.normal = ufl.FacetNormal(self.mesh)
-        self.cut: tuple[Any, Any] | None = None
         self._compiled_probes: dict[str, list[Any]] = {}
 
     @property
@@ -138,27 +132,24 @@ class Elastomer:
             total = total + correction * dx_volumetric
         return total
 
-    def chamber_volume(self, face: str, weight: Any = 1.0) -> Any:
+    def chamber_volume(self, face: str, cut: tuple[Any, Any] | None = None) -> Any:
         """Return the deformed volume in mm^3 enclosed by a chamber's faces, a UFL functional.
 
-        ``weight``, a number on each cell at most, stands in the integrand.
+        ``cut`` are normal and distance of a plane that cuts the chamber open; None: it is closed.
         """
-        return self.on_face(face, weight * self._enclosed_volume)
+        return self.on_face(face, enclosed_volume(self.u, self.X, self.normal, cut))
 
     def cavity_volume(self, pairs: np.ndarray, weight: Any = 1.0) -> Any:
         """Return the same of some facets, pairs (cell of the grid, facet of the cell).
 
-        Whichever they are, it is compiled once.
+        Whichever they are, it is compiled once. ``weight``, a number on each cell at most, stands
+        in the integrand.
         """
         facets = self._local_facets(pairs)
         tags = compat.facet_tags(self.mesh, facets, np.ones(len(facets), dtype=np.int32))
         ds = ufl.Measure("ds", self.mesh, subdomain_data=tags,
                          metadata={"quadrature_degree": self.element.quadrature})
-        return weight * self._enclosed_volume * ds(1)
-
-    @property
-    def _enclosed_volume(self) -> Any:
-        return enclosed_volume(self.u, self.X, self.normal, self.cut)
+        return weight * enclosed_volume(self.u, self.X, self.normal) * ds(1)
 
     # -- measures -----------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from .errors import InputError, require
 from .figure7_facts import PANELS
 from .figure7_result import Curve, Figure7
 from .geometry.wing import WingGeometry
-from .ladder import pick
+from .ladder import LADDERS
 from .limits import actuated
 from .path import Path
 from .progress import Progress
@@ -71,8 +71,9 @@ def figure7(
         Further keyword arguments of `Wing`.
     """
     geometry = WingGeometry.prototype() if geometry is None else geometry
+    rungs = LADDERS["wing"]
     for name in fidelities:
-        pick("wing", name)
+        require(name in rungs, "fidelity", name, "", f"one of {', '.join(rungs)}")
     for panel in panels:
         require(panel in PANELS, "panel", panel, "", "pressure or cables")
     for direction in directions:

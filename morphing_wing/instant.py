@@ -16,17 +16,15 @@ from .analytic_spar import SparFormula
 from .errors import InputError
 from .geometry.rib import RibGeometry
 from .geometry.spar import SparGeometry
-from .ladder import pick
+from .ladder import AUTO, pick
 from .materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 from .path import Path, State
 from .rib import Rib
 from .scene import Scene
-from .spar import Spar, check_alike, pick_of
+from .spar import Spar
+from .spar_rungs import pick_of
 from .stepping import REACHED
 from .targets import load_targets, load_words
-
-USUAL = {"half": True, "contact": False, "filled": None, "meshing": None, "element": None}
-"""What other options of a scene must be."""
 
 
 class Formula:
@@ -35,16 +33,22 @@ class Formula:
     functions: Mapping[str, Any] = {}
     dofs = 0
 
-    def _set_up(self, options: Mapping[str, Any]) -> None:
-        for name, usual in USUAL.items():
-            if options.get(name, usual) != usual:
-                raise InputError(f"{name} = {options[name]!r}: must be left out where fidelity is "
+    def _set_up(self, asked: str, **left_out: Any) -> None:
+        for name, value in left_out.items():
+            if value is not None:
+                raise InputError(f"{name} = {value!r}: must be left out where fidelity is "
                                  "\"instant\"")
+        self._where = "where fidelity is \"instant\"" + (
+            ", which \"auto\" took" if asked == AUTO else "")
+
+    def linearise(self) -> NoReturn:
+        """Refuse: there is no tangent."""
+        return self.system
 
     @property
     def system(self) -> NoReturn:
         """There is none."""
-        raise InputError("fidelity = 'instant': is a formula without a field of displacements, "
+        raise InputError("fidelity = \"instant\": is a formula without a field of displacements, "
                          "must be another one here")
 
     def _led(
@@ -56,10 +60,11 @@ class Formula:
     ) -> Path:
         """Return the path of measures and stored energies of each load, up to a reason to stop."""
         if resume is not None:
-            raise InputError(f"resume = {os.fspath(resume)!r}: must be left out where fidelity is "
-                             "\"instant\", which leaves nothing to resume")
-        clock, states, reason = time.perf_counter(), [], REACHED
+            raise InputError(f"resume = {os.fspath(resume)!r}: must be left out {self._where}; it "
+                             "leaves nothing to resume")
+        begin, states, reason = time.perf_counter(), [], REACHED
         for load in targets:
+            clock = time.perf_counter()
             found = solved(load)
             if isinstance(found, str):
                 reason = found
@@ -71,13 +76,14 @@ class Formula:
                 step_seconds=time.perf_counter() - clock, requested=True, scene=self))
             if on_step is not None:
                 on_step(states[-1])
-        return Path(states, self, len(states) == len(targets), reason, time.perf_counter() - clock)
+        return Path(states, self, len(states) == len(targets), reason, time.perf_counter() - begin)
 
 
 class InstantSpar(Formula, Spar):
     """The spar by Eqs 6-12, see `morphing_wing.analytic_spar`: pressure in one row.
 
-    ``Spar(..., fidelity="instant")`` makes one; options that a formula cannot have are refused.
+    ``Spar(..., fidelity="instant")`` makes one, with the same options; those that a formula cannot
+    have must be left out.
     """
 
     def __init__(
@@ -86,11 +92,18 @@ class InstantSpar(Formula, Spar):
         material: Yeoh = DRAGON_SKIN_30,
         fidelity: str = "instant",
         comm: MPI.Comm | None = None,
-        **options: Any,
+        *,
+        half: bool = True,
+        meshing: Any = None,
+        element: str | None = None,
+        options_prefix: str = "",
+        contact: bool = False,
+        filled: str | None = None,
+        tolerance: float | None = None,
     ) -> None:
-        Scene.__init__(self, pick_of(geometry, fidelity, options.get("tolerance")), comm)
-        self._set_up(options)
-        check_alike(geometry, self.fidelity)
+        picked = pick_of(geometry, fidelity, tolerance, half, contact, filled, meshing, element)
+        Scene.__init__(self, picked, comm)
+        self._set_up(fidelity, meshing=meshing, element=element)
         self.geometry, self.material, self.multiplicity = geometry, material, 1
         self._filled = None
         self._formula = SparFormula(geometry, material)
@@ -102,14 +115,14 @@ class InstantSpar(Formula, Spar):
         for load in targets:
             if min(load.values()) < 0.0 or all(load.values()):
                 raise InputError(f"{load_words(load)}: must be 0 MPa or more, and in one row only, "
-                                 "where fidelity is \"instant\"")
+                                 f"{self._where}")
         return self._led(targets, self._solved, on_step, resume)
 
     def _solved(self, load: Mapping[str, float]) -> tuple[dict[str, float], float] | str:
         pressure = load["upper_MPa"] or load["lower_MPa"]
         turn = self._formula.turn(pressure)
         if np.isnan(turn):
-            return (f"the formula bears {1000 * self._formula.largest_pressure:.4g} kPa at most, "
+            return (f"the formula goes to {1000 * self._formula.largest_pressure:.4g} kPa at most, "
                     f"{1000 * pressure:.4g} kPa were asked for")
         angle = (-1.0 if load["lower_MPa"] else 1.0) * self.geometry.n_cells * turn
         return ({"span_angle_deg": float(np.degrees(angle)), "span_line_deg": arc_line(angle)},
@@ -133,11 +146,12 @@ class InstantRib(Formula, Rib):
         material: Elastic = RESIN,
         fidelity: str = "instant",
         comm: MPI.Comm | None = None,
-        **options: Any,
+        options_prefix: str = "",
+        tolerance: float | None = None,
     ) -> None:
-        picked = pick("rib", fidelity, options.get("tolerance"), geometry.n_cells)
+        picked = pick("rib", fidelity, tolerance, geometry.n_cells)
         Scene.__init__(self, picked, comm)
-        self._set_up(options)
+        self._set_up(fidelity)
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self._compliance = rib_compliance(geometry, material)
@@ -149,7 +163,7 @@ class InstantRib(Formula, Rib):
 
     def pull(self, cable: Any, *_: Any, **__: Any) -> NoReturn:
         """Refuse: the formula is of a moment."""
-        raise InputError(f"cable = {cable!r}: must be a torque where fidelity is \"instant\"")
+        raise InputError(f"cable = {cable!r}: must be a torque {self._where}")
 
     def _solved(self, load: Mapping[str, float]) -> tuple[dict[str, float], float]:
         angle = np.radians(self._compliance * load["torque_Nmm"])

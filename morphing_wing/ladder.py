@@ -7,6 +7,7 @@ measures them anew.
 from __future__ import annotations
 
 import csv
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -105,7 +106,8 @@ def errors_of(scene: str, n_cells: int = 0) -> dict[str, float]:
     found: dict[str, float] = {}
     for row in rows:
         if row["n_cells"] == near:
-            found[row["fidelity"]] = max(found.get(row["fidelity"], 0.0), abs(row["error"]))
+            error = abs(row["error"]) if math.isfinite(row["error"]) else math.inf
+            found[row["fidelity"]] = max(found.get(row["fidelity"], 0.0), error)
     return found
 
 

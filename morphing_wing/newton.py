@@ -83,6 +83,11 @@ class Newton:
     admissible
         Called with the unknowns x and a step, which leads to x - step: returns which part of it to
         take.
+
+    Attributes
+    ----------
+    reuses
+        Whether a solve begins with the factor of the state before.
     """
 
     def __init__(
@@ -103,7 +108,7 @@ class Newton:
         self._before_tangent = before_tangent and weakref.WeakMethod(before_tangent)
         self._admissible = admissible and weakref.WeakMethod(admissible)
         self._tolerance = 0.0
-        self._plain = regularisation is None and admissible is None
+        self.reuses = regularisation is None and admissible is None
         self._near = False  # whether the factor is of a state that was found, or nearly so
         self._b = system.x.duplicate()
         self._x = system.x.duplicate()
@@ -147,14 +152,15 @@ class Newton:
         bury(self.system.comm)
         self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
         self._smallest = self._step = np.inf
+        self._fresh = False  # whether a tangent was assembled in this solve
         self.factor.begin()
         self.system.push(self._x)
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
         iterations = self._snes.getIterationNumber()
-        self._near = self._plain and reason > 0
-        if reason > 0 and (self.factor.amount > 0.0 or iterations == 0):
+        self._near = self.reuses and reason > 0
+        if reason > 0 and (self.factor.amount > 0.0 or not self._fresh):
             # The last factor was of K + a M, which hides what K itself says of stability; or it is
             # of another state, perhaps one of a solve that failed.
             self._assemble(iterations)
@@ -183,7 +189,7 @@ class Newton:
         """
         self._assemble(0)
         self.factor.inspect(self.system.matrix)
-        self._near = self._plain and self.factor.error >= 0
+        self._near = self.reuses and self.factor.error >= 0
         return self.factor
 
     def _words(self, reason: int) -> str:
@@ -205,6 +211,7 @@ class Newton:
         iteration = snes.getIterationNumber()
         self.factor.stale = not (self._near and iteration == 0 and self.factor.exists)
         if self.factor.stale:
+            self._fresh = True
             self._assemble(iteration)
         else:
             self._announce(iteration)
@@ -232,7 +239,8 @@ class Newton:
             # and what its ratio to the last one leaves: where contact moves that is no square.
             last, self._step = self._step, step
             size = x_norm + 1.0
-            known = last <= 1e-8 * size or step * min(step / last, 1.0) <= 1e-10 * size
+            ratio = min(step / last, 1.0) if 0.0 < last < np.inf else 1.0
+            known = last <= 1e-8 * size or step * ratio <= 1e-10 * size
             if unregularised and step <= 1e-8 * size and known:
                 return reason.CONVERGED_SNORM_RELATIVE
             self.factor.relax(1e3 if residual < 0.1 * self._smallest else 10.0)

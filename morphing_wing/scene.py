@@ -135,8 +135,8 @@ class Scene(ABC):
             self.recall(earlier.memory)
         if not self._work.knows_compliance:
             self._work.learn(compliance(self, self.linearise(), self._work.names))
-        elif earlier is not None:
-            self.linearise()  # the first step then begins as that of an unbroken run
+        elif earlier is not None and self.newton.reuses:
+            self.linearise()  # there is no factor yet to begin with
         states, converged, reason = follow(
             self, self._load, targets, self.stepping, on_step, on_cut, keep,
             earlier and earlier.standing,

@@ -34,6 +34,7 @@ from morphing_wing.geometry.wing import WingGeometry
 from morphing_wing.ladder import AUTO, pick
 from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
+from morphing_wing.spar_rungs import pick_of
 
 __all__ = ["SceneFile", "located", "parse_scene", "read_scene"]
 
@@ -125,7 +126,10 @@ def parse_scene(text: str, name: str, fidelity: str | None = None) -> SceneFile:
         tolerance = None if fidelity not in (None, AUTO) else keys.tolerance
         fidelity = fidelity or keys.fidelity or DEFAULT_FIDELITY[keys.scene]
         geometry = geometry_of(keys.scene, keys.geometry)
-        pick(keys.scene, fidelity, tolerance, geometry.n_cells)
+        if keys.scene == "spar":
+            pick_of(geometry, fidelity, tolerance)
+        else:
+            pick(keys.scene, fidelity, tolerance, geometry.n_cells)
         materials = materials_of(keys, geometry)
         loads = loads_of(keys, geometry)
         return SceneFile(keys.scene, geometry, materials, loads, fidelity, tolerance)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -22,79 +21,12 @@ from .filled import FILLINGS, FilledChambers
 from .forms.gravity import mass_density
 from .geometry.spar import SparGeometry, SparMeshing
 from .iterate import Iterate
-from .ladder import Pick, pick
 from .materials import DRAGON_SKIN_30, Yeoh
 from .newton import Newton
 from .path import Path, State
 from .scene import Scene
+from .spar_rungs import FIDELITIES, fitted, pick_of
 from .system import EquilibriumSystem
-
-
-@dataclass(frozen=True)
-class SparFidelity:
-    """One rung of the spar's ladder: a mesh and an element.
-
-    Attributes
-    ----------
-    meshing, element
-        The mesh and the element.
-    slender
-        Length of a chamber over the thinner of its ceiling and floor up to which the rung's error
-        was measured; beyond it the mesh is refined along the chamber.
-    """
-
-    meshing: SparMeshing
-    element: str
-    slender: float
-
-
-FIDELITIES = {
-    "cell": SparFidelity(SparMeshing.cornered(), "Q2/P1disc", slender=10.0),
-    "draft": SparFidelity(SparMeshing.graded(1), "Q1/P0", slender=4.0),
-    "standard": SparFidelity(SparMeshing.graded(1), "Q2/P1disc", slender=10.0),
-    "reference": SparFidelity(SparMeshing.cornered(), "Q2/P1disc", slender=10.0),
-}
-
-
-SLENDER_INTERVAL = 1.5
-"""Longest interval along a chamber, in thicknesses of its thinnest wall, where it is slender."""
-
-
-def fitted(scene: Scene, geometry: SparGeometry, rung: SparFidelity) -> SparMeshing:
-    """Return a rung's meshing for a geometry, and warn where its error is not known."""
-    thinnest = min(geometry.top_thickness, geometry.middle_thickness)
-    ratio = geometry.cavity_length / thinnest
-    if ratio <= rung.slender:
-        return rung.meshing
-    if scene.comm.rank == 0:
-        warnings.warn(
-            f"cavity_length = {geometry.cavity_length:g} mm: is {ratio:.3g} times the thinnest "
-            f"wall above or below a chamber; {scene.fidelity}'s error is known up to "
-            f"{rung.slender:g} times, and its mesh is refined beyond: compare finer meshings",
-            stacklevel=4)
-    return rung.meshing.shortened(SLENDER_INTERVAL / ratio)
-
-
-def pick_of(
-    geometry: SparGeometry,
-    fidelity: str,
-    tolerance: float | None = None,
-    half: bool = True,
-    contact: bool = False,
-    filled: str | None = None,
-    **_: Any,
-) -> Pick:
-    """Return the rung for a spar's options: whole ones only where cells differ, or are drawn."""
-    whole = contact or filled is not None or not half or geometry.wall_lengths is not None
-    return pick("spar", fidelity, tolerance, geometry.n_cells, tuple(FIDELITIES)[1:] if whole
-                else None)
-
-
-def check_alike(geometry: SparGeometry, fidelity: str) -> None:
-    """Refuse walls that differ where all cells must be alike."""
-    if geometry.wall_lengths is not None:
-        raise InputError(f"wall_lengths = {geometry.wall_lengths} mm: must be None where fidelity "
-                         f"is {fidelity!r}, whose cells are all alike")
 
 
 class Spar(Scene):
@@ -135,24 +67,21 @@ class Spar(Scene):
 
     name = "spar"
     load_names = ("upper_MPa", "lower_MPa")
+    _cut: tuple[Any, Any] | None = None  # of a plane that cuts chambers open, see `Chambers`
 
     def __new__(
         cls, geometry: SparGeometry, material: Yeoh = DRAGON_SKIN_30, fidelity: str = "standard",
-        *_: Any, **options: Any,
+        comm: MPI.Comm | None = None, *, options_prefix: str = "", **options: Any,
     ) -> Spar:
         """Return a scene of the kind that the fidelity is of."""
-        if cls is not Spar:
-            return super().__new__(cls)
-        picked = pick_of(geometry, fidelity, **options).fidelity
-        if picked == "cell":
-            from .spar_cell import SparCell
-
-            return super().__new__(SparCell)
-        if picked == "instant":
-            from .instant import InstantSpar
-
-            return super().__new__(InstantSpar)
-        return super().__new__(cls)
+        kind = cls
+        if cls is Spar:
+            picked = pick_of(geometry, fidelity, **options).fidelity
+            if picked == "cell":
+                from .spar_cell import SparCell as kind
+            elif picked == "instant":
+                from .instant import InstantSpar as kind
+        return super().__new__(kind)
 
     def __init__(
         self,
@@ -160,6 +89,7 @@ class Spar(Scene):
         material: Yeoh = DRAGON_SKIN_30,
         fidelity: str = "standard",
         comm: MPI.Comm | None = None,
+        *,
         half: bool = True,
         meshing: SparMeshing | None = None,
         element: str | None = None,
@@ -171,14 +101,17 @@ class Spar(Scene):
         self.led = filled is not None
         if self.led:
             self.load_names, self.primary_load = ("upper_mm3", "lower_mm3"), "upper_mm3"
-        picked = pick_of(geometry, fidelity, tolerance, half, contact, filled)
+        picked = pick_of(geometry, fidelity, tolerance, half, contact, filled, meshing, element)
+        if picked.fidelity not in FIDELITIES:
+            raise InputError(f"fidelity = {fidelity!r}: must be one of {', '.join(FIDELITIES)} for "
+                             f"a {type(self).__name__}")
         rung = FIDELITIES[picked.fidelity]
         super().__init__(picked, comm)
         self.geometry, self.material = geometry, material
         self.multiplicity = 2 if half else 1
         self.body = Elastomer(
             self.comm,
-            geometry.mesh(meshing or fitted(self, geometry, rung), half),
+            geometry.mesh(meshing or fitted(geometry, rung, self.fidelity, self.comm), half),
             material,
             element_named(element or rung.element),
             clamped=("root",),
@@ -312,7 +245,7 @@ class Spar(Scene):
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         if self._filled is None:
-            self._chambers = Chambers(self.body, in_use)
+            self._chambers = Chambers(self.body, in_use, self._cut)
             self.loads, potentials = self._chambers.pressures, self._chambers.potentials
         else:
             self.loads, potentials = self._filled.use(in_use)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from mpi4py import MPI
@@ -15,7 +15,8 @@ from .errors import InputError
 from .geometry.spar import SparGeometry, SparMeshing
 from .materials import DRAGON_SKIN_30, Yeoh
 from .scene import Scene
-from .spar import FIDELITIES, Spar, check_alike, fitted, pick_of
+from .spar import Spar
+from .spar_rungs import CELL, fitted, pick_of
 from .system import EquilibriumSystem
 from .turning_plane import TurningPlane
 
@@ -30,10 +31,10 @@ class SparCell(Spar):
 
     Parameters
     ----------
-    geometry, material, comm, meshing, element, options_prefix
+    geometry, material, fidelity, comm, meshing, element, options_prefix, tolerance
         As `Spar` has them.
-    others
-        Other options of `Spar`: must have their defaults.
+    half, contact, filled
+        Must have their defaults.
     """
 
     def __init__(
@@ -42,37 +43,48 @@ class SparCell(Spar):
         material: Yeoh = DRAGON_SKIN_30,
         fidelity: str = "cell",
         comm: MPI.Comm | None = None,
+        *,
+        half: bool = True,
         meshing: SparMeshing | None = None,
         element: str | None = None,
         options_prefix: str = "spar_",
-        **others: Any,
+        contact: bool = False,
+        filled: str | None = None,
+        tolerance: float | None = None,
     ) -> None:
-        picked, rung = pick_of(geometry, fidelity, others.get("tolerance")), FIDELITIES["cell"]
+        picked = pick_of(geometry, fidelity, tolerance, half, contact, filled, meshing, element)
+        if picked.fidelity != "cell":
+            raise InputError(f"fidelity = {fidelity!r}: must be 'cell' for a SparCell")
         Scene.__init__(self, picked, comm)
-        for name, usual in (("half", True), ("contact", False), ("filled", None)):
-            if others.get(name, usual) != usual:
-                raise InputError(
-                    f"{name} = {others[name]!r}: must be {usual} where fidelity is \"cell\"")
-        check_alike(geometry, picked.fidelity)
         self.geometry, self.material = geometry, material
         self.multiplicity = 4 * geometry.n_cells
         self.body = Elastomer(
             self.comm,
-            geometry.cell_mesh(meshing or fitted(self, geometry, rung)),
+            geometry.cell_mesh(meshing or fitted(geometry, CELL, self.fidelity, self.comm)),
             material,
-            element_named(element or rung.element),
+            element_named(element or CELL.element),
             symmetry={"symmetry": 0, "wall_middle": 2},
             pinned=(1, np.array([0.0, -geometry.middle_thickness / 2, 0.0])),
         )
         self.contact = self._filled = None
         self._plane = TurningPlane(
             self.body, "chamber_middle", geometry.pitch / 2, tuple(ROWS.values()))
+        self._cut = self._plane.cut
         self.system = EquilibriumSystem(
             self.comm, [self.body.block, *self._plane.own_blocks, *self._plane.seen_blocks])
         self._plane.number(self.system)
         self._options_prefix = options_prefix
 
+    def description(self) -> dict[str, Any]:
+        """Return all parameters, for `summary.json`."""
+        return super().description() | {"half_model": True, "model": "a quarter of one cell"}
+
     # -- what the scene is made of ------------------------------------------------------------
+
+    def masses(self) -> NoReturn:
+        """Refuse: a spar's modes are not those of one of its cells."""
+        raise InputError("fidelity = 'cell': has no modes of vibration, must be a whole spar's")
+
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         energies, corrections = super()._functional(in_use)

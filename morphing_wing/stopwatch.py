@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import resource
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -69,6 +70,9 @@ def forget_peak() -> None:
 
 def peak_MB(comm: MPI.Comm) -> float:
     """Return the peak of memory in MB since it was last forgotten, summed over the ranks."""
-    status = Path("/proc/self/status").read_text()
-    peak = next(line for line in status.splitlines() if line.startswith("VmHWM"))
-    return comm.allreduce(int(peak.split()[1]) / 1024)
+    try:
+        status = Path("/proc/self/status").read_text()
+        peak = next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1]
+    except OSError:  # elsewhere than on Linux: since the process began
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return comm.allreduce(int(peak) / 1024)

@@ -305,7 +305,7 @@ class EquilibriumSystem:
         return vstack(rows, format="csr") if len(rows) > 1 else rows[0]
 
     def _independent_pattern(self, i: int, j: int, form: Any) -> csr_matrix:
-        pattern = compat.sparsity(form)
+        pattern = compat.sparsity(self.comm, form)
         column = self._of_columns(j).astype(PETSc.IntType)[pattern.indices]
         indptr = pattern.indptr
         present = column >= 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 from importlib import resources
 from typing import Annotated, Any
@@ -62,11 +63,8 @@ def tradeoff(
 
 
 def _check_kept(file: pathlib.Path) -> None:
-    try:
-        file.parent.mkdir(exist_ok=True)
-        file.touch()
-    except OSError as problem:
-        raise InputError(f"--keep: must be left out, {file}: {problem.strerror}") from None
+    if not os.access(file if file.exists() else file.parent, os.W_OK):
+        raise InputError(f"--keep: must be left out, {file} cannot be written")
 
 
 def _tell(rows: list[dict[str, Any]], found: dict[str, Any]) -> None:
@@ -92,7 +90,7 @@ def _write(
     folder.mkdir(parents=True, exist_ok=True)
     for file in (folder / "tradeoff.csv", kept):
         if file is not None:
-            write_whole(file, lambda at: table.to_csv(at, index=False, float_format="%.6g"))
+            write_whole(file, lambda at: table.to_csv(at, index=False, float_format="%.6g", na_rep="nan"))
     text = json.dumps(plain({"scene": scene, "rows": table.to_dict("records"),
                              "versions": versions()}), indent=2, allow_nan=False) + "\n"
     write_whole(folder / "summary.json", lambda at: at.write_text(text))

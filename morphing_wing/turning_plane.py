@@ -19,8 +19,6 @@ STIFFER = 1e5
 class TurningPlane:
     """The plane of a face that looked along z, see `morphing_wing.forms.turning_plane`.
 
-    It cuts the body's chambers open: their pressure works on it.
-
     Parameters
     ----------
     body
@@ -30,12 +28,14 @@ class TurningPlane:
     distance
         From z = 0 at rest, mm.
     chambers
-        Names of the faces of chambers that the plane cuts.
+        Names of the faces of chambers that the plane cuts open, so that their pressure works on it.
 
     Attributes
     ----------
     energy
         UFL functional.
+    cut
+        Normal and distance in UFL, see `Chambers`.
     own_blocks, seen_blocks
         Of turn and shift, see `SharedNumber`.
     """
@@ -50,8 +50,8 @@ class TurningPlane:
         # Constants, so that another geometry or material of this kind compiles nothing.
         stiffness, at_rest = (compat.constant(body.mesh, value) for value in (
             STIFFER * body.material.shear_modulus / distance, distance))
-        body.cut = (turned_z(turn), at_rest + shift)
-        self.energy = body.on_face(face, plane_energy(stiffness, *body.cut, body.X + body.u))
+        self.cut = (turned_z(turn), at_rest + shift)
+        self.energy = body.on_face(face, plane_energy(stiffness, *self.cut, body.X + body.u))
         self.own_blocks, self.seen_blocks = (
             list(blocks) for blocks in zip(*(n.blocks for n in self._numbers), strict=True))
 

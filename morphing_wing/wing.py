@@ -25,7 +25,7 @@ from .geometry.wing_mesh import WingMeshing, wing_mesh
 from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
-from .ladder import pick
+from .ladder import AUTO, Pick, pick
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -102,6 +102,10 @@ class Wing(TrimmedWing):
         tolerance: float | None = None,
     ) -> None:
         picked = pick("wing", fidelity, tolerance, geometry.n_cells)
+        if meshing is not None or element is not None:
+            require(fidelity != AUTO, "fidelity", fidelity, "", "a rung's name with a mesh or an "
+                    "element of one's own")
+            picked = Pick(picked.fidelity, None)
         rung = FIDELITIES[picked.fidelity]
         prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
         if prestretch is not None:

@@ -40,6 +40,6 @@ def rows(comm: MPI.Comm, everything: bool) -> Iterator[dict[str, Any]]:
             del finest
             case = {"scene": "wing", "case": name, "n_cells": geometry.n_cells, "load": load}
             for fidelity in LADDERS["wing"]:
-                found, _ = row(comm, case, partial(Wing, geometry, fidelity=fidelity, comm=comm),
-                               lambda scene, given=given: scene.actuate(**given), angle)
+                found = row(comm, case, partial(Wing, geometry, fidelity=fidelity, comm=comm),
+                            lambda scene, given=given: scene.actuate(**given), angle)[0]
                 yield found | {"error": found["angle_deg"] / exact - 1.0}

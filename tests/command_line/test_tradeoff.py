@@ -15,7 +15,8 @@ def test_rib_is_measured_now(tmp_path, capsys):
     assert list(table["fidelity"]) == ["instant", "draft"] * 4
     draft = table[table["fidelity"] == "draft"]
     assert (draft["error"].abs() < 0.05).all() and (draft["dofs"] > 0).all()
-    assert (draft["assembly_s"] + draft["factor_s"] < draft["seconds"]).all()
+    parts = draft["assembly_s"] + draft["factor_s"]
+    assert (parts > 0.0).all() and (parts < draft["seconds"]).all()
     assert (draft["peak_MB"] > 50).all()
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert len(summary["rows"]) == 8 and summary["scene"] == "rib"

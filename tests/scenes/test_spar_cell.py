@@ -9,6 +9,7 @@ from mpi4py import MPI
 from morphing_wing import compat
 from morphing_wing.errors import InputError
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
+from morphing_wing.modes import modes
 from morphing_wing.spar import Spar
 from morphing_wing.spar_cell import SparCell
 
@@ -90,16 +91,28 @@ def test_any_meshing_is_cut_in_its_middle():
 
 @pytest.mark.parametrize("name, value", [("half", False), ("contact", True), ("filled", "shared")])
 def test_what_a_cell_does_not_model_is_refused(name, value):
-    with pytest.raises(InputError, match=f"^{name} = .*: must be .* where fidelity is \"cell\"$"):
+    with pytest.raises(InputError, match=f"^{name} = .*: must be .* where fidelity is 'cell'$"):
         cell(**{name: value})
 
 
 @pytest.mark.parametrize("fidelity", ["cell", "instant"])
 def test_walls_that_differ_are_refused(fidelity):
     geometry = replace(SparGeometry.validation(1), wall_lengths=(1.0, 2.0))
-    with pytest.raises(InputError, match=r"^wall_lengths = \(1.0, 2.0\) mm: must be None where"):
+    with pytest.raises(InputError, match=r"^wall_lengths = \(1.0, 2.0\) mm: must be left out where"):
         Spar(geometry, fidelity=fidelity)
     assert Spar(geometry, fidelity="auto", tolerance=0.5).fidelity == "draft"
+
+
+def test_a_misspelt_option_is_no_option():
+    with pytest.raises(TypeError, match="contcat"):
+        cell(contcat=True)
+
+
+def test_a_cell_has_no_modes_of_vibration():
+    scene = cell()
+    scene.inflate(upper=0.01)
+    with pytest.raises(InputError, match="has no modes of vibration"):
+        modes(scene, 1)
 
 
 def test_another_geometry_is_another_angle():

@@ -2,9 +2,9 @@
 
 import pytest
 
-from morphing_wing import ladder
+from morphing_wing import ladder, spar_rungs, wing
 from morphing_wing.errors import InputError
-from morphing_wing.geometry.spar import SparGeometry
+from morphing_wing.geometry.spar import SparGeometry, SparMeshing
 from morphing_wing.ladder import LADDERS, errors_of, pick
 from morphing_wing.spar import Spar
 from morphing_wing.spar_cell import SparCell
@@ -66,7 +66,26 @@ def test_all_rungs_were_measured(scene):
     errors = errors_of(scene, 20)
     assert set(errors) == set(LADDERS[scene])
     assert all(0.0 < error < 0.6 for error in errors.values())
-    assert errors[LADDERS[scene][-1]] == min(errors.values()) or scene == "spar"
+    assert errors[LADDERS[scene][-1]] == min(errors.values())
+
+
+def test_all_rungs_with_a_mesh_are_those_of_the_ladder():
+    assert LADDERS["spar"] == ("instant", "cell", *spar_rungs.FIDELITIES)
+    assert LADDERS["wing"] == tuple(wing.FIDELITIES)
+
+
+def test_a_rung_that_failed_is_never_accurate_enough(monkeypatch):
+    rows = [{"fidelity": "draft", "n_cells": 1, "error": error} for error in (0.01, float("nan"))]
+    monkeypatch.setattr(ladder, "_measured", lambda scene: rows)
+    with pytest.raises(InputError, match="must be at least inf"):
+        pick("wing", "auto", 0.5)
+
+
+@pytest.mark.parametrize("options", [{"element": "Q1/P0"}, {"meshing": SparMeshing.plain()}])
+def test_errors_are_not_told_of_other_meshes_and_auto_takes_none(options):
+    assert Spar(SparGeometry.validation(1), fidelity="draft", **options).error_estimate is None
+    with pytest.raises(InputError, match="must be left out where fidelity is 'auto'"):
+        Spar(SparGeometry.validation(1), fidelity="auto", **options)
 
 
 def test_a_scene_takes_the_rung_and_says_how_far_it_is_off():
