@@ -86,7 +86,7 @@ def pick(
     require(is_number(tolerance) and tolerance > 0.0, "tolerance", tolerance, "",
             "a relative error of the angle greater than 0")
     errors = errors_of(scene, n_cells)
-    known = {name: errors[name] for name in allowed or rungs if name in errors}
+    known = {name: error for name, error in errors.items() if name in (allowed or rungs)}
     for name, error in known.items():
         if error <= tolerance:
             return Pick(name, error)
@@ -99,15 +99,15 @@ def pick(
 
 
 def errors_of(scene: str, n_cells: int = 0) -> dict[str, float]:
-    """Return of each measured rung its largest relative error, see `pick`."""
+    """Return of each measured rung its largest relative error, cheapest rungs first; see `pick`."""
     rows = _measured(scene)
     counts = sorted({row["n_cells"] for row in rows})
     near = max((count for count in counts if count <= n_cells), default=min(counts, default=0))
+    rows = [row for row in rows if row["n_cells"] == near]
     found: dict[str, float] = {}
-    for row in rows:
-        if row["n_cells"] == near:
-            error = abs(row["error"]) if math.isfinite(row["error"]) else math.inf
-            found[row["fidelity"]] = max(found.get(row["fidelity"], 0.0), error)
+    for row in sorted(rows, key=lambda row: row["seconds"]):
+        error = abs(row["error"]) if math.isfinite(row["error"]) else math.inf
+        found[row["fidelity"]] = max(found.get(row["fidelity"], 0.0), error)
     return found
 
 
@@ -118,4 +118,7 @@ def _measured(scene: str) -> list[dict[str, Any]]:
         return []
     with file.open(encoding="utf-8") as text:
         return [{"fidelity": row["fidelity"], "n_cells": int(row["n_cells"]),
-                 "error": float(row["error"])} for row in csv.DictReader(text)]
+                 "error": float(row["error"]),
+                 # Some angles were taken without their cost.
+                 "seconds": math.inf if row["seconds"] in ("", "nan") else float(row["seconds"])}
+                for row in csv.DictReader(text)]

@@ -90,7 +90,8 @@ def _write(
     folder.mkdir(parents=True, exist_ok=True)
     for file in (folder / "tradeoff.csv", kept):
         if file is not None:
-            write_whole(file, lambda at: table.to_csv(at, index=False, float_format="%.6g", na_rep="nan"))
+            write_whole(file, lambda at: table.to_csv(
+                at, index=False, float_format="%.6g", na_rep="nan"))
     text = json.dumps(plain({"scene": scene, "rows": table.to_dict("records"),
                              "versions": versions()}), indent=2, allow_nan=False) + "\n"
     write_whole(folder / "summary.json", lambda at: at.write_text(text))

@@ -17,6 +17,7 @@ from .chambers import Chambers
 from .drawing import Drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
+from .errors import require
 from .forms.gravity import mass_density
 from .frame import BeamFrame
 from .geometry.frame import join

@@ -1,5 +1,7 @@
 """Which rung "auto" takes, from figures made up here and from those in the package."""
 
+import math
+
 import pytest
 
 from morphing_wing import ladder, spar_rungs, wing
@@ -11,13 +13,15 @@ from morphing_wing.spar_cell import SparCell
 
 pytestmark = pytest.mark.quick
 
-ROWS = [("instant", 2, 0.3), ("draft", 2, -0.06), ("draft", 2, 0.01), ("standard", 2, 0.01),
-        ("instant", 20, -0.15), ("draft", 20, 0.04), ("standard", 20, -0.005)]
+ROWS = [("instant", 2, 0.3, 1e-3), ("draft", 2, -0.06, 1.0), ("draft", 2, 0.01, math.inf),
+        ("standard", 2, 0.01, 9.0), ("instant", 20, -0.15, 1e-3), ("standard", 20, -0.005, 9.0),
+        ("draft", 20, 0.04, 1.0), ("cell", 2, 0.001, 10.0), ("cell", 20, 0.04, 2.0)]
 
 
 @pytest.fixture
 def made_up(monkeypatch):
-    rows = [dict(zip(("fidelity", "n_cells", "error"), row, strict=True)) for row in ROWS]
+    names = ("fidelity", "n_cells", "error", "seconds")
+    rows = [dict(zip(names, row, strict=True)) for row in ROWS]
     monkeypatch.setattr(ladder, "_measured", lambda scene: rows)
 
 
@@ -75,7 +79,8 @@ def test_all_rungs_with_a_mesh_are_those_of_the_ladder():
 
 
 def test_a_rung_that_failed_is_never_accurate_enough(monkeypatch):
-    rows = [{"fidelity": "draft", "n_cells": 1, "error": error} for error in (0.01, float("nan"))]
+    rows = [{"fidelity": "draft", "n_cells": 1, "error": error, "seconds": 1.0}
+            for error in (0.01, float("nan"))]
     monkeypatch.setattr(ladder, "_measured", lambda scene: rows)
     with pytest.raises(InputError, match="must be at least inf"):
         pick("wing", "auto", 0.5)
@@ -86,6 +91,11 @@ def test_errors_are_not_told_of_other_meshes_and_auto_takes_none(options):
     assert Spar(SparGeometry.validation(1), fidelity="draft", **options).error_estimate is None
     with pytest.raises(InputError, match="must be left out where fidelity is 'auto'"):
         Spar(SparGeometry.validation(1), fidelity="auto", **options)
+
+
+def test_what_was_measured_is_in_the_order_of_its_cost():
+    assert list(errors_of("spar", 2))[:2] == ["instant", "draft"]
+    assert list(errors_of("spar", 20))[-2:] == ["standard", "reference"]
 
 
 def test_a_scene_takes_the_rung_and_says_how_far_it_is_off():
