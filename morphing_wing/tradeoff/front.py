@@ -33,6 +33,7 @@ def draw(table: pd.DataFrame, title: str, file: str | os.PathLike) -> None:
     for i, (case, rows) in enumerate(timed.groupby(CASE, sort=False)):
         label = "{}, N = {}, {}".format(*case)
         _draw_case(axes, rows.sort_values("seconds"), f"C{i}", label)
+    axes.margins(x=0.15)  # for the last one's name
     axes.set(xscale="log", yscale="log", xlabel="seconds, build and solve",
              ylabel="error of the angle, %", title=title)
     axes.grid(alpha=0.3, which="both")
