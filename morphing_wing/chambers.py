@@ -38,7 +38,7 @@ class Chambers:
         self._volumes = {}
         for name in (name for name in in_use if name in ROWS):
             pressure = compat.constant(body.mesh, 0.0)
-            volume = body.chamber_volume(ROWS[name], cut)
+            volume = body.chamber_volume(ROWS[name], cut=cut)
             self.potentials.append(-pressure * volume)
             self.pressures[name] = [pressure]
             self._volumes[name] = compat.form(volume)

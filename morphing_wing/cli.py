@@ -115,7 +115,7 @@ def solve(
 
 def off_by(scene: Any) -> str:
     """Return in words what was measured of a scene's rung, if anything was."""
-    error = scene.error_estimate
+    error = getattr(scene, "error_estimate", None)
     return "" if error is None else f"; measured error up to {100 * error:.2g} %"
 
 

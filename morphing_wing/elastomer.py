@@ -132,18 +132,20 @@ class Elastomer:
             total = total + correction * dx_volumetric
         return total
 
-    def chamber_volume(self, face: str, cut: tuple[Any, Any] | None = None) -> Any:
+    def chamber_volume(
+        self, face: str, weight: Any = 1.0, cut: tuple[Any, Any] | None = None
+    ) -> Any:
         """Return the deformed volume in mm^3 enclosed by a chamber's faces, a UFL functional.
 
-        ``cut`` are normal and distance of a plane that cuts the chamber open; None: it is closed.
+        ``weight``, a number on each cell at most, stands in the integrand. ``cut`` are normal and
+        distance of a plane that cuts the chamber open; None: it is closed.
         """
-        return self.on_face(face, enclosed_volume(self.u, self.X, self.normal, cut))
+        return self.on_face(face, weight * enclosed_volume(self.u, self.X, self.normal, cut))
 
     def cavity_volume(self, pairs: np.ndarray, weight: Any = 1.0) -> Any:
         """Return the same of some facets, pairs (cell of the grid, facet of the cell).
 
-        Whichever they are, it is compiled once. ``weight``, a number on each cell at most, stands
-        in the integrand.
+        Whichever they are, it is compiled once.
         """
         facets = self._local_facets(pairs)
         tags = compat.facet_tags(self.mesh, facets, np.ones(len(facets), dtype=np.int32))

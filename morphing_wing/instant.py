@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 from .analytic_rib import rib_compliance
 from .analytic_spar import SparFormula
-from .errors import InputError
+from .errors import InputError, plain
 from .geometry.rib import RibGeometry
 from .geometry.spar import SparGeometry
 from .ladder import AUTO, pick
@@ -41,6 +41,10 @@ class Formula:
         self._where = "where fidelity is \"instant\"" + (
             ", which \"auto\" took" if asked == AUTO else "")
 
+    def fill(self, *_: Any, **__: Any) -> NoReturn:
+        """Refuse: there are no chambers."""
+        return self.system
+
     def linearise(self) -> NoReturn:
         """Refuse: there is no tangent."""
         return self.system
@@ -48,8 +52,8 @@ class Formula:
     @property
     def system(self) -> NoReturn:
         """There is none."""
-        raise InputError("fidelity = \"instant\": is a formula without a field of displacements, "
-                         "must be another one here")
+        raise InputError("fidelity = 'instant': must be another one here, a formula without "
+                         "a field of displacements")
 
     def _led(
         self,
@@ -163,7 +167,7 @@ class InstantRib(Formula, Rib):
 
     def pull(self, cable: Any, *_: Any, **__: Any) -> NoReturn:
         """Refuse: the formula is of a moment."""
-        raise InputError(f"cable = {cable!r}: must be a torque {self._where}")
+        raise InputError(f"cable = {plain(cable)} N: must be a torque {self._where}")
 
     def _solved(self, load: Mapping[str, float]) -> tuple[dict[str, float], float]:
         angle = np.radians(self._compliance * load["torque_Nmm"])

@@ -109,9 +109,10 @@ class Newton:
         self._admissible = admissible and weakref.WeakMethod(admissible)
         self._tolerance = 0.0
         self.reuses = regularisation is None and admissible is None
-        self._near = False  # whether the factor is of a state that was found, or nearly so
+        self._near = False  # whether the factor is, or nearly is, of the state `_found`
         self._b = system.x.duplicate()
         self._x = system.x.duplicate()
+        self._found = system.x.duplicate()
         self.factor = InertiaCholesky(regularisation, expected_negative, prefix + "factor_")
         if admissible is not None:
             me = weakref.proxy(self)
@@ -155,11 +156,14 @@ class Newton:
         self._fresh = False  # whether a tangent was assembled in this solve
         self.factor.begin()
         self.system.push(self._x)
+        # Not where held unknowns have moved: that state is far from the one that was found.
+        self._near = self._near and self._x.equal(self._found)
         self._snes.solve(None, self._x)
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
         iterations = self._snes.getIterationNumber()
         self._near = self.reuses and reason > 0
+        self._x.copy(self._found)
         if reason > 0 and (self.factor.amount > 0.0 or not self._fresh):
             # The last factor was of K + a M, which hides what K itself says of stability; or it is
             # of another state, perhaps one of a solve that failed.
@@ -190,6 +194,7 @@ class Newton:
         self._assemble(0)
         self.factor.inspect(self.system.matrix)
         self._near = self.reuses and self.factor.error >= 0
+        self.system.push(self._found)
         return self.factor
 
     def _words(self, reason: int) -> str:

@@ -75,6 +75,10 @@ class SparCell(Spar):
         self._plane.number(self.system)
         self._options_prefix = options_prefix
 
+    def fill(self, *_: Any, **__: Any) -> NoReturn:
+        """Refuse: how unequally chambers grow is not one cell's to tell."""
+        raise InputError("fidelity = 'cell': must be a whole spar's to be filled with volumes")
+
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
         return super().description() | {"half_model": True, "model": "a quarter of one cell"}
@@ -83,7 +87,7 @@ class SparCell(Spar):
 
     def masses(self) -> NoReturn:
         """Refuse: a spar's modes are not those of one of its cells."""
-        raise InputError("fidelity = 'cell': has no modes of vibration, must be a whole spar's")
+        raise InputError("fidelity = 'cell': must be a whole spar's for modes of vibration")
 
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:

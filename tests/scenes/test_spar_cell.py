@@ -111,8 +111,10 @@ def test_a_misspelt_option_is_no_option():
 def test_a_cell_has_no_modes_of_vibration():
     scene = cell()
     scene.inflate(upper=0.01)
-    with pytest.raises(InputError, match="has no modes of vibration"):
+    with pytest.raises(InputError, match="must be a whole spar's for modes"):
         modes(scene, 1)
+    with pytest.raises(InputError, match="must be a whole spar's to be filled"):
+        scene.fill(upper=100.0)
 
 
 def test_another_geometry_is_another_angle():

@@ -53,3 +53,15 @@ def test_after_a_cut_and_with_a_cable_the_answer_is_the_same():
             for steps in (0.2, np.linspace(0.0, 0.2, 5)[1:])]
     assert ribs[0].measures["chord_angle_deg"] == pytest.approx(
         ribs[1].measures["chord_angle_deg"], rel=1e-8)
+
+
+@pytest.mark.quick
+def test_where_held_unknowns_have_moved_the_step_begins_with_a_tangent_of_its_own():
+    scene = spar()
+    scene.inflate(upper=0.01)
+    before = scene.newton.factor.factorisations
+    scene.body.function.x.array[:] *= 1.001
+    scene.system.share()
+    result = scene.solve()
+    assert result.converged
+    assert scene.newton.factor.factorisations - before == result.iterations
