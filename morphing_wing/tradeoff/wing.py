@@ -1,7 +1,8 @@
 """The wing's trade: the paper's prototype without its skin, under pressure and cables.
 
 Errors are relative to the element of "standard" on a mesh graded at the chambers' corners. With its
-skin, which folds and touches, the finest mesh takes hours; there README compares the rungs.
+skin, which folds and touches, the finest mesh takes more than ten minutes a load; README compares
+the rungs there.
 """
 
 from __future__ import annotations
