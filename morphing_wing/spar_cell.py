@@ -1,4 +1,4 @@
-"""The spar as one cell that repeats itself: no ends, and a twentieth of the unknowns."""
+"""The spar as one cell that repeats itself: no ends, and few unknowns."""
 
 from __future__ import annotations
 
@@ -88,7 +88,6 @@ class SparCell(Spar):
     def masses(self) -> NoReturn:
         """Refuse: a spar's modes are not those of one of its cells."""
         raise InputError("fidelity = 'cell': must be a whole spar's for modes of vibration")
-
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
         energies, corrections = super()._functional(in_use)

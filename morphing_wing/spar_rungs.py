@@ -69,9 +69,11 @@ def pick_of(
     whole = contact or filled is not None or not half or not alike
     allowed = tuple(FIDELITIES) if whole else None
     found = pick("spar", fidelity, tolerance, geometry.n_cells, allowed)
+    known = own and slenderness(geometry) <= FIDELITIES.get(found.fidelity, CELL).slender
+    if not known:
+        found = Pick(found.fidelity, None)
     if found.fidelity in FIDELITIES:
-        known = own and slenderness(geometry) <= FIDELITIES[found.fidelity].slender
-        return found if known else Pick(found.fidelity, None)
+        return found
     for name, value, usual in (("half", half, True), ("contact", contact, False),
                                ("filled", filled, None)):
         if value != usual:
@@ -80,7 +82,7 @@ def pick_of(
     if not alike:
         raise InputError(f"wall_lengths = {geometry.wall_lengths} mm: must be left out where "
                          f"fidelity is {found.fidelity!r}, whose cells are all alike")
-    return found if own else Pick(found.fidelity, None)
+    return found
 
 
 def slenderness(geometry: SparGeometry) -> float:

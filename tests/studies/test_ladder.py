@@ -1,6 +1,7 @@
 """Which rung "auto" takes, from figures made up here and from those in the package."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -10,6 +11,7 @@ from morphing_wing.geometry.spar import SparGeometry, SparMeshing
 from morphing_wing.ladder import LADDERS, errors_of, pick
 from morphing_wing.spar import Spar
 from morphing_wing.spar_cell import SparCell
+from morphing_wing.spar_rungs import pick_of
 
 pytestmark = pytest.mark.quick
 
@@ -84,6 +86,13 @@ def test_a_rung_that_failed_is_never_accurate_enough(monkeypatch):
     monkeypatch.setattr(ladder, "_measured", lambda scene: rows)
     with pytest.raises(InputError, match="must be at least inf"):
         pick("wing", "auto", 0.5)
+
+
+@pytest.mark.parametrize("fidelity", ["instant", "cell"])
+def test_errors_are_not_told_of_chambers_longer_than_any_that_was_measured(fidelity):
+    geometry = SparGeometry.validation(1)
+    assert pick_of(geometry, fidelity).error > 0.0
+    assert pick_of(replace(geometry, cavity_length=20.0), fidelity).error is None
 
 
 @pytest.mark.parametrize("options", [{"element": "Q1/P0"}, {"meshing": SparMeshing.plain()}])
