@@ -15,10 +15,10 @@ import numpy as np
 import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
-from scipy.sparse import coo_matrix, csr_matrix, vstack
 
 from . import compat
 from .blocks import Block
+from .pattern import Pattern
 
 
 class EquilibriumSystem:
@@ -45,7 +45,8 @@ class EquilibriumSystem:
         self._lay_out()
         self._build_scatter()
         self._matrix: PETSc.Mat | None = None
-        self._lasting_pattern: Any = None
+        independent = self.blocks[: self._n_independent]
+        self._pattern = Pattern(comm, independent, self.blocks, self._first, self.size)
         self._residuals: list[Any] = []
         self._tangents: list[tuple[int, int, Any]] = []
         self._energies: list[Any] = []
@@ -253,7 +254,7 @@ class EquilibriumSystem:
     # -- the matrix ---------------------------------------------------------------------------
 
     def _create_matrix(self) -> PETSc.Mat:
-        csr = self._pattern()
+        csr = self._pattern.rows(self._tangents, self._free)
         A = PETSc.Mat().createAIJ(
             ((self.n_owned, None), (self.n_owned, None)),
             csr=(csr.indptr.astype(PETSc.IntType), csr.indices.astype(PETSc.IntType)),
@@ -271,84 +272,6 @@ class EquilibriumSystem:
     def _index_set(self, b: int) -> PETSc.IS:
         start, end = self._spans[b]
         return PETSc.IS().createStride(end - start, start, 1, comm=MPI.COMM_SELF)
-
-    def _pattern(self) -> csr_matrix:
-        """Return this rank's rows of the pattern; that of the independent blocks is found once."""
-        coupled = [max(i, j) >= self._n_independent for i, j, _ in self._tangents]
-        if self._lasting_pattern is None:
-            self._lasting_pattern = self._independent_rows(
-                [tangent for tangent, is_so in zip(self._tangents, coupled, strict=True)
-                 if not is_so])
-        found = [self._local_pattern(i, j) for (i, j, _), is_so in
-                 zip(self._tangents, coupled, strict=True) if is_so]
-        csr = self._lasting_pattern + self._as_rows(found) if found else self._lasting_pattern
-        csr.sort_indices()
-        return csr
-
-    def _as_rows(self, found: Sequence[tuple[np.ndarray, np.ndarray]]) -> csr_matrix:
-        row = np.concatenate([rows for rows, _ in found]) - self._first
-        column = np.concatenate([columns for _, columns in found])
-        shape = (self.n_owned, self.size)
-        return coo_matrix((np.ones(len(row), dtype=bool), (row, column)), shape=shape).tocsr()
-
-    def _independent_rows(self, tangents: Sequence[tuple[int, int, Any]]) -> csr_matrix:
-        """Return the pattern of forms of independent blocks, the diagonal with it."""
-        start, rows = self._first, []
-        for b, block in enumerate(self.blocks[: self._n_independent]):
-            n = block.n_owned
-            diagonal = csr_matrix((np.ones(n, dtype=bool), start + np.arange(n), np.arange(n + 1)),
-                                  shape=(n, self.size))
-            parts = [self._independent_pattern(*tangent) for tangent in tangents if tangent[0] == b]
-            # Small ones first: only the last sum is of the size of the largest.
-            rows.append(sum(sorted(parts, key=lambda part: part.nnz), start=diagonal))
-            start += n
-        return vstack(rows, format="csr") if len(rows) > 1 else rows[0]
-
-    def _independent_pattern(self, i: int, j: int, form: Any) -> csr_matrix:
-        pattern = compat.sparsity(self.comm, form)
-        column = self._of_columns(j).astype(PETSc.IntType)[pattern.indices]
-        indptr = pattern.indptr
-        present = column >= 0
-        if not present.all():
-            kept = np.concatenate([[0], np.cumsum(present)])
-            column, indptr = column[present], kept[indptr]
-        csr = csr_matrix((np.ones(len(column), dtype=bool), column, indptr),
-                         shape=(len(indptr) - 1, self.size))
-        unknown = self._of_rows(i) >= 0
-        return csr if unknown.all() else csr[np.flatnonzero(unknown)]
-
-    def _of_rows(self, b: int) -> np.ndarray:
-        """Return the system's number of each dof of a block that this rank owns."""
-        block = self.blocks[b]
-        n = block.function.function_space.dofmap.index_map.size_local * block.block_size
-        return block.numbers[:n]
-
-    def _of_columns(self, b: int) -> np.ndarray:
-        """Return the system's number of each dof of a block, in its own global numbering."""
-        return np.concatenate(self.comm.allgather(self._of_rows(b)))
-
-    def _local_pattern(self, i: int, j: int) -> tuple[np.ndarray, np.ndarray]:
-        numbers = [self._cell_numbers(self.blocks[b]) for b in (i, j)]
-        both = np.logical_and(*((part >= 0).any(axis=1) for part in numbers))
-        rows, columns = (part[both] for part in numbers)
-        shape = (len(rows), rows.shape[1], columns.shape[1])
-        row = np.broadcast_to(rows[:, :, None], shape).ravel()
-        column = np.broadcast_to(columns[:, None, :], shape).ravel()
-        present = (row >= 0) & (column >= 0)
-        pairs = np.unique(np.stack([row[present], column[present]]), axis=1)
-        row, column = np.concatenate(self.comm.allgather(pairs), axis=1)
-        mine = (row >= self._first) & (row < self._first + self.n_owned)
-        return row[mine], column[mine]
-
-    def _cell_numbers(self, block: Block) -> np.ndarray:
-        """Return the numbers of each local cell's unknowns, -1 for what is held or nothing."""
-        dofmap, mesh = block.function.function_space.dofmap, block.function.function_space.mesh
-        index_map = mesh.topology.index_map(mesh.topology.dim)
-        n_cells = index_map.size_local + index_map.num_ghosts
-        nodes = np.array([dofmap.cell_dofs(cell) for cell in range(n_cells)], dtype=np.int64)
-        size = block.block_size
-        dofs = nodes.reshape(n_cells, dofmap.dof_layout.num_dofs, 1) * size + np.arange(size)
-        return self._free(block)[dofs.reshape(n_cells, dofs.shape[1] * size)]
 
 
 def _derivative(form: Any, function: Any, number: int) -> Any | None:
