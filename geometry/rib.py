@@ -135,10 +135,10 @@ class RibGeometry:
         build = _Builder()
         for layer in (-1, 0, 1):
             for i in range(1, self.n_cells + 1):
-                start, end = self._ends(layer, i)
-                crossing = build.point(("C", i, layer), self._joint("C", i, layer))
+                start, end = self.bar_ends(layer, i)
+                crossing = build.point(("C", i, layer), self.joint("C", i, layer))
                 for key in (start, end):
-                    joint = build.point((*key, layer), self._joint(*key, layer))
+                    joint = build.point((*key, layer), self.joint(*key, layer))
                     build.line(joint, crossing, "shaft", "boss", reach)
         for name, count in (("T", self.n_cells), ("B", self.n_cells), ("C", self.n_cells + 1)):
             for i in range(1, count):
@@ -167,18 +167,19 @@ class RibGeometry:
         hub = build.point((kind, "hub"), (x + inset, 0.0, 0.0))
         i = 1 if kind == "root" else self.n_cells
         for layer in (-1, 0, 1):
-            key = self._ends(layer, i)[0 if kind == "root" else 1]
+            key = self.bar_ends(layer, i)[0 if kind == "root" else 1]
             build.bar(build.keys[(*key, layer)], hub, "arm")
         end = build.point((kind, "end"), (x, 0.0, 0.0))
         build.bar(hub, end, kind)
         return end
 
     @staticmethod
-    def _ends(layer: int, i: int) -> tuple[tuple[str, int], tuple[str, int]]:
+    def bar_ends(layer: int, i: int) -> tuple[tuple[str, int], tuple[str, int]]:
         """Return the joints of bar i: it rises in the middle layer and falls in the outer ones."""
         return (("B", i - 1), ("T", i)) if layer == 0 else (("T", i - 1), ("B", i))
 
-    def _joint(self, name: str, i: int, layer: int) -> tuple[float, float, float]:
+    def joint(self, name: str, i: int, layer: int = 0) -> tuple[float, float, float]:
+        """Return where a joint T_i, B_i or C_i is in a layer (-1, 0, 1), in mm."""
         y = {"T": 0.5, "B": -0.5, "C": 0.0}[name] * self.height
         x = (i - 0.5 if name == "C" else i) * self.pitch
         return x, y, layer * self.spacing

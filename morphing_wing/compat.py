@@ -41,32 +41,35 @@ else:
 
 
 def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray) -> Any:
-    """Distribute a mesh of first-order cells.
+    """Distribute a mesh of first-order cells, or of second-order tetrahedra.
 
     Parameters
     ----------
     comm
         Communicator; every rank calls, the cells of rank 0 are used.
     cell
-        ``"hexahedron"`` (tensor-product vertex order) or ``"interval"`` (may branch).
+        ``"hexahedron"`` (tensor-product vertex order), ``"interval"`` (may branch) or
+        ``"tetrahedron"``.
     cells
-        Vertices of each cell, shape (n_cells, n_vertices).
+        Vertices of each cell, then the middles of its edges if they are curved, in the order of
+        finite elements, shape (n_cells, n_nodes).
     points
         Coordinates in mm, shape (n_points, 3).
     """
+    degree = 2 if cells.shape[1] == 10 else 1
     if comm.rank != 0:
         cells, points = cells[:0], points[:0]
     cells = np.ascontiguousarray(cells, dtype=np.int64)
     points = np.ascontiguousarray(points, dtype=np.float64)
     with _compiling(comm):
         if _HAS_BASIX_UFL:
-            element = basix.ufl.element("Lagrange", cell, 1, shape=(3,))
+            element = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
             arguments = (element, points) if _cells_then_element() else (points, element)
             return dolfinx.mesh.create_mesh(comm, cells, *arguments)
         # FFCx gives coordinate elements without a variant one in place, at the first compilation;
         # arguments made before and after that would then count as different.
         shape = ufl.Cell(cell, geometric_dimension=3)
-        domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, 1, variant="equispaced"))
+        domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, degree, variant="equispaced"))
         return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
 
 

@@ -15,6 +15,7 @@ from . import compat
 from .blocks import Block
 from .elements import Element
 from .errors import InputError
+from .faces import Faces
 from .forms.enhanced import N_MODES
 from .forms.hyperelasticity import mixed_volumetric_energy, volumetric_energy, yeoh_energy
 from .forms.kinematics import cofactor, deformation_gradient
@@ -69,7 +70,7 @@ class Elastomer:
                              "has no pressure of its own")
         self.comm, self.grid, self.material, self.element = comm, grid, material, element
         self.mesh = compat.create_mesh(comm, "hexahedron", grid.cells, grid.points)
-        self._tag_faces()
+        self.faces = Faces(self.mesh, grid.facets)
         self._thin = self._thin_cells(thin) if element.enhanced else None
         self.prestretch = prestretch and Prestretch(self.mesh, self._cells_of(*thin), prestretch)
         if element.pressure is not None:
@@ -147,11 +148,8 @@ class Elastomer:
 
         Whichever they are, it is compiled once.
         """
-        facets = self._local_facets(pairs)
-        tags = compat.facet_tags(self.mesh, facets, np.ones(len(facets), dtype=np.int32))
-        ds = ufl.Measure("ds", self.mesh, subdomain_data=tags,
-                         metadata={"quadrature_degree": self.element.quadrature})
-        return weight * enclosed_volume(self.u, self.X, self.normal) * ds(1)
+        volume = weight * enclosed_volume(self.u, self.X, self.normal)
+        return self.faces.on_pairs(pairs, volume, self.element.quadrature)
 
     # -- measures -----------------------------------------------------------------------------
 
@@ -164,9 +162,7 @@ class Elastomer:
 
     def on_face(self, face: str, integrand: Any, degree: int | None = None) -> Any:
         """Return the integral of an integrand over a named face, a UFL functional."""
-        ds = ufl.Measure("ds", self.mesh, subdomain_data=self.face_tags,
-                         metadata={"quadrature_degree": degree or self.element.quadrature})
-        return sum(integrand * ds(number) for number in self._face_numbers[face])
+        return self.faces.on(face, integrand, degree or self.element.quadrature)
 
     def mean_normal(self, face: str) -> np.ndarray:
         """Return the area vector in mm^2 of a deformed face, integral of ``cof(F) N``."""
@@ -251,51 +247,6 @@ class Elastomer:
             ]
         return self._compiled_probes[face]
 
-    def _tag_faces(self) -> None:
-        """Tag local facets from pairs (input cell, facet of the cell); faces may overlap."""
-        names: dict[tuple[int, int], list[str]] = {}
-        for name, pairs in self.grid.facets.items():
-            for cell, facet in pairs:
-                names.setdefault((int(cell), int(facet)), []).append(name)
-        sets = sorted({tuple(found) for found in names.values()})
-        number = {found: i + 1 for i, found in enumerate(sets)}
-        self._face_numbers = {
-            name: [number[found] for found in sets if name in found] for name in self.grid.facets
-        }
-        pairs = np.array(list(names), dtype=np.int64).reshape(-1, 2)
-        values = np.array([number[tuple(found)] for found in names.values()], dtype=np.int32)
-        here = self._is_local(pairs)
-        self.face_tags = compat.facet_tags(self.mesh, self._local_facets(pairs), values[here])
-
-    def _is_local(self, pairs: np.ndarray) -> np.ndarray:
-        """Return which pairs (cell of the grid, facet of the cell) this rank has, as a mask."""
-        return np.isin(pairs[:, 0], compat.original_cells(self.mesh))
-
-    def _local_facets(self, pairs: np.ndarray) -> np.ndarray:
-        """Return this rank's number of each pair's facet that it has."""
-        original = compat.original_cells(self.mesh)
-        order = np.argsort(original)
-        pairs = pairs[self._is_local(pairs)]
-        cells = order[np.searchsorted(original, pairs[:, 0], sorter=order)]
-        return compat.cell_facets(self.mesh)[cells, pairs[:, 1]].astype(np.int32)
-
-    def face_facets(self, face: str) -> np.ndarray:
-        """Return the local facets of a named face."""
-        tags = self.face_tags
-        return tags.indices[np.isin(tags.values, self._face_numbers[face])]
-
-    def face_cells(self, face: str, chosen: np.ndarray | None = None) -> np.ndarray:
-        """Return the local cells at a face, or at those of its facets in the grid that are chosen.
-
-        ``chosen`` is a mask over ``grid.facets[face]``.
-        """
-        pairs = self.grid.facets[face]
-        return self.cells_at(pairs if chosen is None else pairs[chosen])
-
-    def cells_at(self, pairs: np.ndarray) -> np.ndarray:
-        """Return the local cells of pairs (cell of the grid, facet of the cell)."""
-        return np.flatnonzero(np.isin(compat.original_cells(self.mesh), pairs[:, 0]))
-
     def lumped_volume(self, *regions: str) -> np.ndarray:
         """Return the volume in mm^3 of regions (all, if none is named) on each owned unknown.
 
@@ -344,18 +295,11 @@ class Elastomer:
         pinned: tuple[int, np.ndarray] | None,
     ) -> np.ndarray:
         displacement = self.displacement_part(space)
-        found = []
-        pairs = [(face, axis) for face in clamped for axis in range(3)] + list(symmetry.items())
-        for face, axis in pairs:
-            part = displacement.sub(axis)
-            collapsed, _ = part.collapse()
-            dofs = fem.locate_dofs_topological(
-                (part, collapsed), self.mesh.topology.dim - 1, self.face_facets(face)
-            )
-            found.append(dofs[0])
-        if pinned is not None:
-            part = displacement.sub(pinned[0])
-            at = np.reshape(pinned[1], (3, 1))
-            found.append(fem.locate_dofs_geometrical(
-                (part, part.collapse()[0]), lambda x: np.all(np.isclose(x, at), axis=0))[0])
-        return np.unique(np.concatenate(found)) if found else np.empty(0, dtype=np.int32)
+        held = [(face, axis) for face in clamped for axis in range(3)] + list(symmetry.items())
+        found = self.faces.held(displacement, held)
+        if pinned is None:
+            return found
+        part, at = displacement.sub(pinned[0]), np.reshape(pinned[1], (3, 1))
+        pin = fem.locate_dofs_geometrical(
+            (part, part.collapse()[0]), lambda x: np.all(np.isclose(x, at), axis=0))[0]
+        return np.union1d(found, pin)

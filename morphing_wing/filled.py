@@ -71,7 +71,7 @@ class FilledChambers:
             single = [pairs[chamber == i] for i in range(chamber.max() + 1)]
             self._supplied[row] = [pairs] if filling == "shared" else single
             self._led[row] = [
-                LedLoad(body.mesh, body.cells_at(own), f"{row}_{i + 1}_kPa", KILOPASCAL)
+                LedLoad(body.mesh, body.faces.cells_at(own), f"{row}_{i + 1}_kPa", KILOPASCAL)
                 for i, own in enumerate(self._supplied[row])]
             self._volumes[row] = [compat.form(body.cavity_volume(own)) for own in single]
             self._at_rest[row] = self._volumes_now(row)

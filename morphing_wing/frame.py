@@ -143,6 +143,28 @@ class BeamFrame:
         return self.comm.allreduce(values, op=MPI.SUM)
 
 
+class FrameEnd:
+    """The root or the tail of a frame of one rib, as `morphing_wing.rigid_end` has one.
+
+    Attributes
+    ----------
+    motion
+        Translation in mm and rotation vector in UFL, on ``mesh``.
+    """
+
+    def __init__(self, beams: BeamFrame, kind: str) -> None:
+        self._beams, self._kind = beams, kind
+        self.motion, self.mesh = beams.function, beams.mesh
+
+    def at(self, integrand: Any) -> Any:
+        """Return an integrand of `motion` and of constants on `mesh` as a UFL functional."""
+        return self._beams.at_ends(self._kind, integrand)
+
+    def values(self) -> np.ndarray:
+        """Return translation in mm and rotation vector, (6,), on every rank. Collective."""
+        return self._beams.end_values(self._kind, 0)
+
+
 def turned_x(theta: np.ndarray) -> np.ndarray:
     """Return where the rotation vector ``theta`` turns the direction x, shape (3,)."""
     angle = float(np.linalg.norm(theta))

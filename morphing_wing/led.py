@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .shared_number import SharedNumber
+from .shared_numbers import SharedNumbers
 from .system import EquilibriumSystem
 
 
@@ -24,14 +24,14 @@ class LedLoad:
     Parameters
     ----------
     mesh, cells, name
-        See `SharedNumber`: the local cells are those at which the load acts.
+        See `SharedNumbers`: the local cells are those at which the load acts.
     unit
         What the load is one of if the unknown is one: brings its equation to the size of others.
 
     Attributes
     ----------
     blocks
-        Of the unknown, see `SharedNumber`.
+        Of the unknown, see `SharedNumbers`.
     seen
         The load in UFL, on the body's mesh.
     given
@@ -41,7 +41,7 @@ class LedLoad:
     def __init__(
         self, mesh: Any, cells: np.ndarray, name: str = "load", unit: float = 1.0
     ) -> None:
-        self._number, self._unit = SharedNumber(mesh, cells, name), unit
+        self._number, self._unit = SharedNumbers(mesh, cells, name), unit
         self.blocks = self._number.blocks
         self.given = self._number.constant(0.0)
         self.seen = unit * self._number.seen
@@ -62,4 +62,4 @@ class LedLoad:
     @property
     def value(self) -> float:
         """The load. Collective."""
-        return self._unit * self._number.value
+        return self._unit * float(self._number.values[0])

@@ -8,7 +8,6 @@ from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
-import ufl
 from dolfinx import fem
 from mpi4py import MPI
 
@@ -20,7 +19,7 @@ from .errors import require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .forms.gravity import mass_density
-from .frame import BeamFrame, turned_x
+from .frame import BeamFrame, FrameEnd, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
 from .ladder import pick
@@ -67,11 +66,14 @@ class Rib(Scene):
         *_: Any, tolerance: float | None = None, **__: Any,
     ) -> Rib:
         """Return a scene of the kind that the fidelity is of."""
-        if cls is Rib and pick("rib", fidelity, tolerance, geometry.n_cells).fidelity == "instant":
-            from .instant import InstantRib
-
-            return super().__new__(InstantRib)
-        return super().__new__(cls)
+        kind = cls
+        if cls is Rib:
+            picked = pick("rib", fidelity, tolerance, geometry.n_cells).fidelity
+            if picked == "instant":
+                from .instant import InstantRib as kind
+            elif picked in ("standard", "reference"):
+                from .solid_rib import SolidRib as kind
+        return super().__new__(kind)
 
     def __init__(
         self,
@@ -85,12 +87,20 @@ class Rib(Scene):
         super().__init__(pick("rib", fidelity, tolerance, geometry.n_cells), comm)
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
-        self.beams = BeamFrame(self.comm, geometry.frame(), material)
-        self._tail = np.array([geometry.length, 0.0, 0.0])
-        self._guide = compat.constant(self.beams.mesh, self._tail + [0.0, -100.0, 0.0])
+        self._options_prefix = options_prefix
+        self._build()
+        self._guide = compat.constant(self.tail.mesh, self._tail_place + [0.0, -100.0, 0.0])
+
+    def _build(self) -> None:
+        """Make the system, and the tail that loads act on."""
+        self.beams = BeamFrame(self.comm, self.geometry.frame(), self.material)
+        self.tail = FrameEnd(self.beams, "tail")
         clamped = self.beams.end_dofs("root", 0)
         self.system = EquilibriumSystem(self.comm, [Block(self.beams.function, clamped)])
-        self._options_prefix = options_prefix
+
+    @property
+    def _tail_place(self) -> np.ndarray:
+        return np.array([self.geometry.length, 0.0, 0.0])
 
     def bend(
         self,
@@ -136,7 +146,7 @@ class Rib(Scene):
             See `Scene.follow`.
         """
         check_tension(cable)
-        place = self._tail + _guide(guide)
+        place = self._tail_place + _guide(guide)
         if not np.array_equal(place, self._guide.value):
             self._guide.value = place
             self._in_use = None  # to be taken up anew: work counts from the new guide on
@@ -160,7 +170,7 @@ class Rib(Scene):
             "geometry": asdict(self.geometry),
             "material": asdict(self.material),
             "element": "Simo-Reissner beam, quadratic, 2 Gauss points",
-            "guide_mm": [float(x) for x in self._guide.value - self._tail],
+            "guide_mm": [float(x) for x in self._guide.value - self._tail_place],
         }
 
     # -- what the scene is made of ------------------------------------------------------------
@@ -172,21 +182,25 @@ class Rib(Scene):
         return Newton(self.system, self._options_prefix, before_tangent=self.before_tangent)
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
-        mesh, w = self.beams.mesh, self.beams.function
-        position = ufl.SpatialCoordinate(mesh) + displacement(w)
+        tail = self.tail
+        position = compat.constant(tail.mesh, self._tail_place) + displacement(tail.motion)
         potentials = {
-            "torque_Nmm": lambda torque: torque * w[5],
+            "torque_Nmm": lambda torque: torque * tail.motion[5],
             "cable_N": lambda tension: cable_potential(tension, position, self._guide),
         }
-        energies = [self.beams.energy]
+        energies = self._stored()
         self.loads, self._shortenings = {}, {}
         for name in in_use:
-            load = compat.constant(mesh, 0.0)
-            energies.append(self.beams.at_ends("tail", potentials[name](load)))
-            unit = potentials[name](1.0)
-            self._shortenings[name] = compat.form(self.beams.at_ends("tail", -unit))
+            load = compat.constant(tail.mesh, 0.0)
+            energies.append(tail.at(potentials[name](load) / self.multiplicity))
+            unit = potentials[name](1.0 / self.multiplicity)
+            self._shortenings[name] = compat.form(tail.at(-unit))
             self.loads[name] = [load]
-        return energies, [self.beams.tangent_correction]
+        return energies, self._corrections()
+
+    def _corrections(self) -> dict[int, Any]:
+        """Return what makes tangents robust, by block."""
+        return {0: self.beams.tangent_correction}
 
     def _stored(self) -> list[Any]:
         return [self.beams.energy]
@@ -200,10 +214,10 @@ class Rib(Scene):
                 for name, form in self._shortenings.items()}
 
     def _measures(self) -> dict[str, float]:
-        tail = self.beams.end_values("tail", 0)
+        tail = self.tail.values()
         return {
             "chord_angle_deg": rotation_about_z(turned_x(tail[3:])),
-            "chord_line_deg": deflection_line(tail[:3], self._tail),
+            "chord_line_deg": deflection_line(tail[:3], self._tail_place),
         }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from . import compat
 from .elastomer import Elastomer
 from .forms.turning_plane import plane_energy, turned_z
-from .shared_number import SharedNumber
+from .shared_numbers import SharedNumbers
 from .system import EquilibriumSystem
 
 STIFFER = 1e5
@@ -37,15 +37,15 @@ class TurningPlane:
     cut
         Normal and distance in UFL, see `Chambers`.
     own_blocks, seen_blocks
-        Of turn and shift, see `SharedNumber`.
+        Of turn and shift, see `SharedNumbers`.
     """
 
     def __init__(
         self, body: Elastomer, face: str, distance: float, chambers: Sequence[str]
     ) -> None:
-        cells = np.unique(np.concatenate([body.face_cells(name) for name in (face, *chambers)]))
+        cells = np.unique(np.concatenate([body.faces.cells(name) for name in (face, *chambers)]))
         self._at_rest = distance
-        self._numbers = [SharedNumber(body.mesh, cells, name) for name in ("turn", "shift")]
+        self._numbers = [SharedNumbers(body.mesh, cells, name) for name in ("turn", "shift")]
         turn, shift = (number.seen for number in self._numbers)
         # Constants, so that another geometry or material of this kind compiles nothing.
         stiffness, at_rest = (compat.constant(body.mesh, value) for value in (
@@ -63,9 +63,9 @@ class TurningPlane:
     @property
     def turn(self) -> float:
         """Turn about x in radians, positive when the face then looks down. Collective."""
-        return self._numbers[0].value
+        return float(self._numbers[0].values[0])
 
     @property
     def distance(self) -> float:
         """Distance in mm of the plane from the origin. Collective."""
-        return self._at_rest + self._numbers[1].value
+        return self._at_rest + float(self._numbers[1].values[0])

@@ -60,7 +60,7 @@ class Equilibrium:
     ) -> None:
         self.body = body(comm, grid, material, ELEMENTS[element], thin=("body",), **options)
         self.load: Any = compat.constant(self.body.mesh, 0.0)
-        self._led = None if led is None else LedLoad(self.body.mesh, self.body.face_cells(led))
+        self._led = None if led is None else LedLoad(self.body.mesh, self.body.faces.cells(led))
         energies, blocks = [self.body.energy], [self.body.block]
         if work is not None:
             self._displacement = compat.form(work(self.body, 1.0))

@@ -64,4 +64,4 @@ class Strip:
         part = space.sub(0)
         collapsed, _ = part.collapse()
         return fem.locate_dofs_topological(
-            (part, collapsed), 2, self.body.face_facets("right"))[0]
+            (part, collapsed), 2, self.body.faces.facets("right"))[0]

@@ -108,7 +108,7 @@ class Moved:
         body = self.body
         part = body.displacement_part(body.function.function_space).sub(axis)
         collapsed, _ = part.collapse()
-        return fem.locate_dofs_topological((part, collapsed), 2, body.face_facets(face))[0]
+        return fem.locate_dofs_topological((part, collapsed), 2, body.faces.facets(face))[0]
 
 
 LINEAR = 1e-12
