@@ -5,7 +5,8 @@ beta = alpha/2 to x; joints are T_i = (i p, h/2), B_i = (i p, -h/2), i = 0..n, a
 C_i = ((i - 1/2) p, 0), i = 1..n, with the pitch p = l_rs cos(beta) and height h = l_rs sin(beta).
 The layer z = 0 has bars B_(i-1) T_i, the layers z = -s and z = s have T_(i-1) B_i; the mirror
 cancels out-of-plane distortion. Cylindrical pivots join the layers: blue ones at T_i and B_i,
-i = 1..n-1, black ones at C_i.
+i = 1..n-1, black ones at C_i. The pantograph that the paper calls legacy is two of these layers,
+one of each kind, moved to z = -s/2 and z = s/2.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from .section import Circle, Rectangle, Section, Stiffened
 
 KINDS = ("shaft", "boss", "pivot", "centre_pivot", "socket", "arm", "root", "tail")
 SECTIONS = ("flush", "square")
+LAYERS = {2: (0, 1), 3: (-1, 0, 1)}
+"""Of each number of layers, which there are: layer 0 rises along x, the others fall."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,10 @@ class RibGeometry:
         on a solid of Section 5.1's set (2.397 degrees per N mm; n = 6, nu = 0.35, E = 2500 MPa)
         the frame gives 2.362 with and 3.028 without; on one of Section 3.3's (1.85 to 1.87) 1.772
         with and 1.902 without.
+    layers
+        3: the paper's rib, its own mirror image in z = 0. 2: one rising and one falling layer, as
+        pantographs had before, with the pivots of one gap; z = 0 lies midway between them, so
+        that root and tail stay at the centre of the section and loads there have no lever.
     """
 
     shaft_length: float
@@ -62,6 +69,7 @@ class RibGeometry:
     n_cells: int
     section: str = "flush"
     bosses: bool = False
+    layers: int = 3
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built."""
@@ -75,6 +83,8 @@ class RibGeometry:
         require(is_count(n), "n_cells", n, "", "a whole number of at least 1")
         require(self.section in SECTIONS, "section", self.section, "", "'flush' or 'square'")
         require(isinstance(self.bosses, bool), "bosses", self.bosses, "", "True or False")
+        require(is_count(self.layers) and self.layers in LAYERS, "layers", self.layers, "",
+                "2 or 3")  # fmt: skip
         room = min(self.shaft_length / 2.0, self.height, self.pitch)
         require(self.pivot_diameter < room, "pivot_diameter", self.pivot_diameter, "mm",
                 f"less than {room:.4g} mm, or neighbouring pivots overlap")  # fmt: skip
@@ -115,6 +125,11 @@ class RibGeometry:
         return self.pivot_length + (self.shaft_thickness if self.section == "square" else 0.0)
 
     @property
+    def depth(self) -> float:
+        """Depth of all layers along z, from face to face, mm."""
+        return (self.layers - 1) * self.spacing + self.shaft_thickness
+
+    @property
     def shaft_width(self) -> float:
         """In-plane width of a bar, mm."""
         return self.pivot_diameter if self.section == "flush" else self.shaft_thickness
@@ -127,13 +142,14 @@ class RibGeometry:
         the bar it has the width w_b of the same bending flexibility: w_b^-3 is the mean of w^-3
         over the circle's chords w that are wider than the bar.
 
-        The three joints of either end are held by nearly rigid ``arm`` bars, a foot plate and a
-        tail block, which end in a short ``root`` or ``tail`` bar, so that the points (0, 0, 0)
-        and (n p, 0, 0) each belong to one bar alone.
+        The joints of either end, one a layer, are held by nearly rigid ``arm`` bars, a foot plate
+        and a tail block, which end in a short ``root`` or ``tail`` bar, so that the points
+        (0, 0, 0) and (n p, 0, 0) each belong to one bar alone.
         """
         reach, width = self._boss()
         build = _Builder()
-        for layer in (-1, 0, 1):
+        layers = LAYERS[self.layers]
+        for layer in layers:
             for i in range(1, self.n_cells + 1):
                 start, end = self.bar_ends(layer, i)
                 crossing = build.point(("C", i, layer), self.joint("C", i, layer))
@@ -142,7 +158,9 @@ class RibGeometry:
                     build.line(joint, crossing, "shaft", "boss", reach)
         for name, count in (("T", self.n_cells), ("B", self.n_cells), ("C", self.n_cells + 1)):
             for i in range(1, count):
-                for layer in (-1, 1):
+                for layer in layers:
+                    if layer == 0:
+                        continue
                     pair = [build.keys[name, i, 0], build.keys[name, i, layer]]
                     kind = "centre_pivot" if name == "C" else "pivot"
                     build.line(*pair, kind, "socket", self.shaft_thickness / 2.0)
@@ -166,7 +184,7 @@ class RibGeometry:
         """Add the arms of one end, which meet beside the end point; return that point."""
         hub = build.point((kind, "hub"), (x + inset, 0.0, 0.0))
         i = 1 if kind == "root" else self.n_cells
-        for layer in (-1, 0, 1):
+        for layer in LAYERS[self.layers]:
             key = self.bar_ends(layer, i)[0 if kind == "root" else 1]
             build.bar(build.keys[(*key, layer)], hub, "arm")
         end = build.point((kind, "end"), (x, 0.0, 0.0))
@@ -175,14 +193,15 @@ class RibGeometry:
 
     @staticmethod
     def bar_ends(layer: int, i: int) -> tuple[tuple[str, int], tuple[str, int]]:
-        """Return the joints of bar i: it rises in the middle layer and falls in the outer ones."""
+        """Return the joints of bar i: it rises in layer 0 and falls in the others."""
         return (("B", i - 1), ("T", i)) if layer == 0 else (("T", i - 1), ("B", i))
 
     def joint(self, name: str, i: int, layer: int = 0) -> tuple[float, float, float]:
         """Return where a joint T_i, B_i or C_i is in a layer (-1, 0, 1), in mm."""
         y = {"T": 0.5, "B": -0.5, "C": 0.0}[name] * self.height
         x = (i - 0.5 if name == "C" else i) * self.pitch
-        return x, y, layer * self.spacing
+        middle = 0.5 if self.layers == 2 else 0.0
+        return x, y, (layer - middle) * self.spacing
 
     def _boss(self) -> tuple[float, float]:
         """Return how far from its axis a cylinder is wider than the bar, and the width w_b."""

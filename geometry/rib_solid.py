@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from morphing_wing.errors import InputError
+from morphing_wing.errors import InputError, require
 
 from .rib import RibGeometry
 from .tetmesh import TetMesh, with_faces
@@ -116,14 +116,15 @@ def meshed(
 
 
 def check_room(rib: RibGeometry) -> None:
-    """Refuse a rib of which parts collide that are not joined.
+    """Refuse a rib of two layers, and one of which parts collide that are not joined.
 
     Raises
     ------
     InputError
-        If neighbouring bars of a layer do: they are l_rs/2 sin(alpha) apart, and one has a
-        cylinder where the other passes.
+        If there is no middle layer to halve, or if neighbouring bars of a layer collide: they
+        are l_rs/2 sin(alpha) apart, and one has a cylinder where the other passes.
     """
+    require(rib.layers == 3, "layers", rib.layers, "", "3 for a rib as a solid, which is halved")
     apart = 0.5 * rib.shaft_length * math.sin(math.radians(rib.crossing_angle))
     needed = 0.5 * rib.shaft_width + max(0.5 * rib.pivot_diameter, 0.5 * rib.shaft_width)
     if apart < needed + _CLEARANCE:

@@ -186,7 +186,7 @@ class WingGeometry:
         """Return height and width in mm of a rib's foot plate."""
         assert self.rib is not None
         height = self.foot_height or self.rib.height + self.rib.shaft_width
-        width = self.foot_width or 2.0 * self.rib.spacing + self.rib.shaft_thickness
+        width = self.foot_width or self.rib.depth
         return height, width
 
     def _check_chambers(self) -> None:

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 
+from morphing_wing.errors import require
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.materials import Elastic
 
@@ -35,6 +36,7 @@ def rib_compliance(geometry: RibGeometry, material: Elastic, consistent: bool = 
     consistent
         Whether c is 6, from moments T, 2T, T, in place of the paper's 27/4.
     """
+    require(geometry.layers == 3, "layers", geometry.layers, "", "3 for the paper's formulas")
     g, E, G = geometry, material.E, material.shear_modulus
     twisted = math.pi * g.pivot_diameter**4 / 32
     bent = twisted / 2

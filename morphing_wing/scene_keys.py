@@ -73,6 +73,7 @@ class RibKeys(Keys):
     n_cells: Count | None = None
     section: Literal["flush", "square"] | None = None
     bosses: bool | None = None
+    layers: Count | None = None
 
 
 class WingKeys(Keys):

@@ -5,10 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
+from morphing_wing.analytic_rib import rib_compliance
 from morphing_wing.errors import InputError
 from morphing_wing.geometry.frame import join
 from morphing_wing.geometry.rib import RibGeometry
+from morphing_wing.geometry.rib_solid import check_room
 from morphing_wing.geometry.section import Circle, Rectangle, torsion_constant
+from morphing_wing.materials import RESIN
 
 pytestmark = pytest.mark.quick
 
@@ -73,6 +76,24 @@ def test_only_root_and_tail_points_end_one_bar_alone():
     assert set(np.flatnonzero(count == 1)) == {frame.roots[0], frame.tails[0]}
     assert np.allclose(frame.points[frame.roots[0]], 0.0)
     assert np.allclose(frame.points[frame.tails[0]], [rib.length, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("n", [1, 6])
+def test_two_layers_have_the_bars_and_pivots_of_one_gap(n):
+    rib = dataclasses.replace(RibGeometry.validation("square"), n_cells=n, layers=2)
+    frame = rib.frame()
+    z = np.unique(np.round(frame.points[frame.bars[frame.of_kind("shaft")]][..., 2], 9))
+    assert z.tolist() == [-3.3, 3.3] and rib.depth == pytest.approx(5.4 + 2 * 1.2)
+    counts = {name: len(frame.of_kind(name)) for name in frame.names}
+    assert counts == {"shaft": 4 * n, "pivot": 2 * (n - 1), "centre_pivot": n,
+                      "socket": 2 * (3 * n - 2), "arm": 4, "root": 1, "tail": 1, "boss": 0}
+    assert np.allclose(frame.points[[*frame.roots, *frame.tails]], [[0, 0, 0], [rib.length, 0, 0]])
+
+
+def test_two_layers_are_as_before_when_turned_by_half_a_turn_about_the_chord():
+    points = dataclasses.replace(RibGeometry.prototype(), layers=2).frame().points
+    distance = np.linalg.norm(points[:, None] - points[None] * [1, -1, -1], axis=2)
+    assert np.all(distance.min(axis=1) < 1e-12)
 
 
 def test_sockets_fill_the_half_thickness_of_the_bars():
@@ -149,6 +170,9 @@ def test_joined_ribs_keep_their_ends_and_sections():
         ({"pivot_diameter": 3.4}, "pivot_diameter = 3.4 mm: must be less than 3.25 mm"),
         ({"shaft_thickness": 5.4}, "shaft_thickness = 5.4 mm: must be less than"),
         ({"bosses": 1}, "bosses = 1: must be True or False"),
+        ({"layers": 1}, "layers = 1: must be 2 or 3"),
+        ({"layers": True}, "layers = True: must be 2 or 3"),
+        ({"layers": 3.0}, "layers = 3: must be 2 or 3"),
     ],
 )
 def test_what_cannot_be_built_is_refused_in_one_sentence(change, sentence):
@@ -156,3 +180,11 @@ def test_what_cannot_be_built_is_refused_in_one_sentence(change, sentence):
         dataclasses.replace(RibGeometry.validation(), **change)
     assert str(refused.value).startswith(sentence)
     assert "\n" not in str(refused.value)
+
+
+def test_formulas_and_solids_are_of_three_layers():
+    rib = dataclasses.replace(RibGeometry.validation(), layers=2)
+    with pytest.raises(InputError, match="^layers = 2: must be 3 for the paper's formulas$"):
+        rib_compliance(rib, RESIN)
+    with pytest.raises(InputError, match="^layers = 2: must be 3 for a rib as a solid, which is"):
+        check_room(rib)
