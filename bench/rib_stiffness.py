@@ -1,9 +1,9 @@
 """The whole rib as a solid, loaded in all six ways: how good the frame's stiffnesses are.
 
 Six cells, both presets and both sections, E = 2500 MPa, nu = 0.35: curved second-order tetrahedra,
-the root section clamped, the tail section on a rigid plate, no symmetry. Half a minute and 2 GB
-each. The frame has no part of a bar that a cylinder stiffens but by ``bosses``, and that in the
-plane only: out of it the frame is the softer one.
+the root section clamped, the tail section on a rigid plate, no symmetry. Half a minute to two and
+2 GB each. Out of the plane the frame is the softer one: there a solid's cylinders stiffen the bars
+that they run through or end at, the frame's do not.
 """
 
 import argparse

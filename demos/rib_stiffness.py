@@ -58,7 +58,9 @@ table({f"{name}, two layers": replace(rib, layers=2) for name, rib in sets.items
 
 # Yes, but not by much: the bars of a layer are joined to each other by pivots only, so that
 # whichever way the rib bends, pivots bend and twist. A full bar of the same outline is far more
-# direction-minded. And without the third layer the rib is *softer* spanwise than chordwise.
+# direction-minded. (A solid is stiffer out of the plane than this frame, and the ratio a fifth to
+# two fifths larger: bench/rib_stiffness.py.) And without the third layer the rib is *softer*
+# spanwise than chordwise.
 
 # What tunes it
 # -------------

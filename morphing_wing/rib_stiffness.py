@@ -29,9 +29,7 @@ from .rib import Rib
 if TYPE_CHECKING:
     from mpi4py import MPI
 
-__all__ = ["MOTIONS", "RibStiffness", "rib_stiffness", "stiffness_table", "tail_compliance"]
-
-MOTIONS = ("u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z")
+__all__ = ["RibStiffness", "rib_stiffness", "stiffness_table", "tail_compliance"]
 
 
 @dataclass(frozen=True)
