@@ -19,15 +19,15 @@ import numpy as np
 from morphing_wing.errors import InputError, require
 
 from .rib import RibGeometry
-from .tetmesh import TetMesh, with_faces
+from .tetmesh import EDGES, TetMesh, with_faces
 
 NOTCH = 0.006
 """Depth of the flanks' notches over the radius of the cylinder; it fills all but the rims."""
 
 _TOUCHING = 0.05  # flanks nearer than this to a cylinder's side, over its radius, are notched
 _CLEARANCE = 0.02  # mm; parts nearer than that are taken to collide
-_PER_TURN = 12  # elements around a cylinder
-_CURVED = 0.2  # smallest ratio of a curved cell's volume to the straight one's, at any node
+_CURVED = 0.1  # smallest ratio of a curved cell's volume to the straight one's, at any node
+_HALVINGS = 20  # of an edge's bend, until its cells are sound
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Pivot:
     number: int
 
 
-def rib_solid(rib: RibGeometry, size: float, half: bool = True) -> TetMesh:
+def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
     """Return the rib between x = 0 and x = n p, ends cut off along z-y planes.
 
     Faces are ``root`` (x = 0), ``tail`` (x = n p) and, of a half, ``symmetry`` (z = 0).
@@ -65,8 +65,9 @@ def rib_solid(rib: RibGeometry, size: float, half: bool = True) -> TetMesh:
     ----------
     rib
         Dimensions.
-    size
-        Length of the elements' edges in mm.
+    around
+        Elements around a cylinder; in bars, edges are as long as the smallest dimension is wide
+        for 12, and shorter in proportion.
     half
         Whether only what lies at z > 0.
 
@@ -81,17 +82,18 @@ def rib_solid(rib: RibGeometry, size: float, half: bool = True) -> TetMesh:
     pivots += [Pivot("C", i) for i in range(1, n + 1)]
     at = {"root": lambda x: np.abs(x[:, 0]) < 1e-6,
           "tail": lambda x: np.abs(x[:, 0] - length) < 1e-6}
-    return meshed(rib, bars, pivots, size, half, at)
+    return meshed(rib, bars, pivots, around, half, at)
 
 
 def meshed(
-    rib: RibGeometry, bars: list[Bar], pivots: list[Pivot], size: float, half: bool,
+    rib: RibGeometry, bars: list[Bar], pivots: list[Pivot], around: int, half: bool,
     faces: dict[str, Any],
 ) -> TetMesh:
     """Return some bars and pivots of a rib as one mesh; see `rib_solid` and `with_faces`."""
     check_room(rib)
     if half:
         faces = faces | {"symmetry": lambda x: np.abs(x[:, 2]) < 1e-6}
+    size = 12 / around * min(rib.shaft_width, rib.shaft_thickness, rib.pivot_diameter)
     with _gmsh() as gmsh:
         build = gmsh.model.occ
         shapes = [_add_bar(build, rib, bar, half) for bar in bars]
@@ -105,7 +107,7 @@ def meshed(
             raise RuntimeError(f"the rib's parts were fused to {parts} bodies, must be one")
         for name, value in {
             "CharacteristicLengthMax": size, "CharacteristicLengthFromCurvature": 1,
-            "MinimumElementsPerTwoPi": _PER_TURN, "CharacteristicLengthMin": 0.1 * size,
+            "MinimumElementsPerTwoPi": around, "CharacteristicLengthMin": 0.1 * size,
             "Optimize": 1,
         }.items():
             gmsh.option.setNumber(f"Mesh.{name}", value)
@@ -255,15 +257,11 @@ def _taken(gmsh: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _unfolded(mesh: TetMesh) -> TetMesh:
-    """Return the mesh with straight edges where curved ones fold a cell, as thin ones may."""
-    from .tetmesh import EDGES
-
+    """Return the mesh with less bent edges where bent ones fold a cell, as they do thin ones."""
     points = mesh.points.copy()
-    for _ in range(5):
+    for _ in range(_HALVINGS):
         bad = TetMesh(points, mesh.cells, mesh.facets).smallest_jacobian() < _CURVED
-        if not bad.any():
-            break
-        rows = mesh.cells[bad]
-        ends = points[rows[:, EDGES]]
-        points[rows[:, 4:]] = ends.mean(axis=2)
+        middles, first = np.unique(mesh.cells[bad, 4:], return_index=True)
+        ends = points[mesh.cells[bad][:, EDGES].reshape(-1, 2)[first]]
+        points[middles] = 0.5 * (points[middles] + ends.mean(axis=1))
     return TetMesh(points, mesh.cells, mesh.facets)

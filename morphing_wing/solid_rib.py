@@ -19,8 +19,8 @@ from .rigid_end import RigidEnd
 from .root import on_root
 from .system import EquilibriumSystem
 
-SIZES = {"standard": 0.6, "reference": 0.3}
-"""Edges of each rung's elements over the smallest dimension of bars and pivots."""
+AROUND = {"standard": 12, "reference": 18}
+"""Elements around a cylinder of each rung's mesh."""
 
 _OUT_OF_PLANE = (2, 3, 4)  # of the tail's six motions, those that a half rib does not have
 
@@ -36,8 +36,7 @@ class SolidRib(Rib):
 
     def _build(self) -> None:
         rib = self.geometry
-        size = SIZES[self.fidelity] * min(rib.shaft_width, rib.shaft_thickness, rib.pivot_diameter)
-        grid = self.comm.bcast(on_root(self.comm, lambda: rib_solid(rib, size)))
+        grid = self.comm.bcast(on_root(self.comm, lambda: rib_solid(rib, AROUND[self.fidelity])))
         self.body = ResinBody(self.comm, grid, self.material, clamped=("root",),
                               symmetry={"symmetry": 2})
         self.tail = RigidEnd(self.body, "tail", self._tail_place, held=_OUT_OF_PLANE)
