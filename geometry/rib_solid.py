@@ -59,7 +59,8 @@ class Pivot:
 def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
     """Return the rib between x = 0 and x = n p, ends cut off along z-y planes.
 
-    Faces are ``root`` (x = 0), ``tail`` (x = n p) and, of a half, ``symmetry`` (z = 0).
+    Faces are ``root`` (x = 0), ``tail`` (x = n p), ``crests`` (what is higher or lower than all
+    joints) and, of a half, ``symmetry`` (z = 0).
 
     Parameters
     ----------
@@ -81,7 +82,8 @@ def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
     pivots = [Pivot(name, i) for name in "TB" for i in range(1, n)]
     pivots += [Pivot("C", i) for i in range(1, n + 1)]
     at = {"root": lambda x: np.abs(x[:, 0]) < 1e-6,
-          "tail": lambda x: np.abs(x[:, 0] - length) < 1e-6}
+          "tail": lambda x: np.abs(x[:, 0] - length) < 1e-6,
+          "crests": lambda x: np.abs(x[:, 1]) > 0.5 * rib.height}
     return meshed(rib, bars, pivots, around, half, at)
 
 

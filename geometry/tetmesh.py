@@ -75,6 +75,21 @@ def with_faces(
     return TetMesh(points, cells, found)
 
 
+def joined(mesh: TetMesh, places: np.ndarray) -> TetMesh:
+    """Return copies of a mesh, unconnected, each moved to one of the places (k, 3) in mm.
+
+    The faces of copy i, from 0, have ``_i`` behind their names.
+    """
+    n, m = len(mesh.points), len(mesh.cells)
+    each = range(len(places))
+    return TetMesh(
+        points=np.concatenate([mesh.points + place for place in places]),
+        cells=np.concatenate([mesh.cells + n * i for i in each]),
+        facets={f"{name}_{i}": pairs + [m * i, 0]
+                for i in each for name, pairs in mesh.facets.items()},
+    )
+
+
 def _gradients() -> np.ndarray:
     """Gradients of the shape functions at the ten nodes, (10, 10, 3)."""
     places = np.vstack([np.eye(4), 0.5 * np.eye(4)[EDGES].sum(axis=1)])

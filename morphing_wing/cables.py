@@ -8,6 +8,7 @@ from . import compat
 from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .frame import BeamFrame
+from .solid_ribs import SolidRibs
 
 __all__ = ["Cables"]
 
@@ -18,7 +19,7 @@ class Cables:
     Parameters
     ----------
     ribs
-        The frame.
+        The ribs.
     guide
         The guide points, each seen from its undeformed tail, mm.
 
@@ -30,11 +31,11 @@ class Cables:
         UFL functional in N mm.
     """
 
-    def __init__(self, ribs: BeamFrame, guide: Sequence[float]) -> None:
+    def __init__(self, ribs: BeamFrame | SolidRibs, guide: Sequence[float]) -> None:
         self._comm = ribs.comm
-        self.tension = compat.constant(ribs.mesh, 0.0)
-        place = compat.constant(ribs.mesh, guide)
-        length = cable_potential(1.0, displacement(ribs.function), place)
+        self.tension = compat.constant(ribs.motion_mesh, 0.0)
+        place = compat.constant(ribs.motion_mesh, guide)
+        length = cable_potential(1.0, displacement(ribs.motion), place)
         self.potential = ribs.at_ends("tail", self.tension * length)
         self._length = compat.form(ribs.at_ends("tail", length))
 

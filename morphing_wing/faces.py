@@ -43,13 +43,13 @@ class Faces:
                          metadata={"quadrature_degree": degree})
         return sum(integrand * ds(number) for number in self._numbers[face])
 
-    def on_pairs(self, pairs: np.ndarray, integrand: Any, degree: int) -> Any:
-        """Return the same over facets (k, 2); whichever they are, it is compiled once."""
+    def measure_on(self, pairs: np.ndarray, degree: int) -> Any:
+        """Return the measure over facets (k, 2); whichever they are, forms are compiled once."""
         facets = self._local_facets(pairs)
         tags = compat.facet_tags(self._mesh, facets, np.ones(len(facets), dtype=np.int32))
         ds = ufl.Measure("ds", self._mesh, subdomain_data=tags,
                          metadata={"quadrature_degree": degree})
-        return integrand * ds(1)
+        return ds(1)
 
     def facets(self, face: str) -> np.ndarray:
         """Return the local facets of a face."""

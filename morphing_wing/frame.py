@@ -9,7 +9,8 @@ import ufl
 from dolfinx import fem
 from mpi4py import MPI
 
-from morphing_wing.forms.beam import QUADRATURE_DEGREE, beam_energy, beam_strains
+from morphing_wing.forms.beam import QUADRATURE_DEGREE, beam_energy, beam_strains, displacement
+from morphing_wing.forms.gravity import gravity_potential
 from morphing_wing.forms.mixed_point import mixed_point_correction
 from morphing_wing.geometry.frame import Frame
 from morphing_wing.materials import Elastic
@@ -30,6 +31,8 @@ class BeamFrame:
         Points, bars, axes and sections; the same on every rank.
     material
         The ribs' resin.
+    clamped
+        Whether roots do not move.
 
     Attributes
     ----------
@@ -37,17 +40,26 @@ class BeamFrame:
         Interval mesh in 3D, one cell a bar; local cell c is bar ``bars[c]``.
     function
         w = (u, theta) in mm and radians, quadratic, block size 6.
+    block
+        Of ``function``.
+    motion, motion_mesh
+        The same function and its mesh: translation and rotation vector of the ends, see `at_ends`.
     energy
         UFL functional: stored energy in N mm.
     tangent_correction, iterate
         Bilinear form that makes the tangent robust, and the iterates that it needs.
     """
 
-    def __init__(self, comm: MPI.Comm, frame: Frame, material: Elastic) -> None:
+    def __init__(
+        self, comm: MPI.Comm, frame: Frame, material: Elastic, clamped: bool = False
+    ) -> None:
         self.comm, self.frame, self.material = comm, frame, material
         self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points)
         self.bars = compat.original_cells(self.mesh)
         self.function = fem.Function(compat.vector_space(self.mesh, 2, 6), name="ribs")
+        held = [self.end_dofs("root", rib) for rib in range(len(frame.roots))] if clamped else []
+        self.block = Block(self.function, np.concatenate([np.empty(0, dtype=np.int32), *held]))
+        self.motion, self.motion_mesh = self.function, self.mesh
         axes = self.cellwise(frame.axes)
         stiffness = self.cellwise(frame.stiffness(material.E, material.nu))
         dx = self.measure
@@ -63,18 +75,39 @@ class BeamFrame:
         ) * dx
 
     @property
+    def unknowns(self) -> list[Block]:
+        """The independent blocks of a system."""
+        return [self.block]
+
+    @property
+    def parts(self) -> tuple[Any, ...]:
+        """What stores energy."""
+        return (self,)
+
+    def join(self, system: Any) -> None:
+        """Do nothing: all that a frame has are unknowns of its own."""
+
+    @property
     def measure(self) -> Any:
         """The measure along the bars, with the two Gauss points of the energy."""
         return ufl.dx(domain=self.mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
 
-    def lumped_volume(self) -> np.ndarray:
+    def rise(self, weight: float) -> Any:
+        """Return the integral of a weight in N/mm^3 times the way up, a UFL functional.
+
+        Bars weigh by their whole length: the little in which they overlap at joints weighs twice.
+        """
+        line = compat.constant(self.mesh, weight) * self.cellwise(self.frame.areas())
+        return gravity_potential(line, displacement(self.function)) * self.measure
+
+    def lumped_volumes(self) -> list[np.ndarray]:
         """Return the volume in mm^3 on each owned unknown; none on a rotation: bars are thin."""
         space, area = self.function.function_space, self.cellwise(self.frame.areas())
         v, volume = ufl.TestFunction(space), fem.Function(space)
         compat.assemble_vector(
             compat.form(area * (v[0] + v[1] + v[2]) * self.measure), volume.x.array)
         compat.add_ghosts(volume)
-        return volume.x.array[: 6 * space.dofmap.index_map.size_local].copy()
+        return [volume.x.array[: 6 * space.dofmap.index_map.size_local].copy()]
 
     def cellwise(self, values: np.ndarray) -> fem.Function:
         """Return the function with one value (scalar, vector, matrix) a bar, given as (m, ...)."""
@@ -126,12 +159,12 @@ class BeamFrame:
         n_owned = 6 * self.function.function_space.dofmap.index_map.size_local
         return dofs[dofs < n_owned]
 
-    def end_numbers(self, block: Block, kind: str, rib: int) -> np.ndarray:
+    def end_numbers(self, kind: str, rib: int) -> np.ndarray:
         """Return a system's numbers of a rib's root or tail on every rank, shape (6,)."""
         numbers = np.zeros(6, dtype=np.int64)
         dofs = self.owned(self.end_dofs(kind, rib))
         if len(dofs):
-            numbers[:] = block.numbers[dofs]
+            numbers[:] = self.block.numbers[dofs]
         return self.comm.allreduce(numbers, op=MPI.SUM)
 
     def end_values(self, kind: str, rib: int) -> np.ndarray:
@@ -141,28 +174,6 @@ class BeamFrame:
         if len(dofs):
             values[:] = self.function.x.array[dofs]
         return self.comm.allreduce(values, op=MPI.SUM)
-
-
-class FrameEnd:
-    """The root or the tail of a frame of one rib, as `morphing_wing.rigid_end` has one.
-
-    Attributes
-    ----------
-    motion
-        Translation in mm and rotation vector in UFL, on ``mesh``.
-    """
-
-    def __init__(self, beams: BeamFrame, kind: str) -> None:
-        self._beams, self._kind = beams, kind
-        self.motion, self.mesh = beams.function, beams.mesh
-
-    def at(self, integrand: Any) -> Any:
-        """Return an integrand of `motion` and of constants on `mesh` as a UFL functional."""
-        return self._beams.at_ends(self._kind, integrand)
-
-    def values(self) -> np.ndarray:
-        """Return translation in mm and rotation vector, (6,), on every rank. Collective."""
-        return self._beams.end_values(self._kind, 0)
 
 
 def turned_x(theta: np.ndarray) -> np.ndarray:

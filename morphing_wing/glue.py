@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from .adhesive import GluedPatches
-from .blocks import Block
 from .elastomer import Elastomer
 from .frame import BeamFrame
 from .geometry.patches import joined, patch_points
 from .geometry.wing import WingGeometry
 from .materials import Adhesive
+from .solid_ribs import SolidRibs
 from .surface import Surface
 from .system import EquilibriumSystem
 
@@ -25,7 +25,7 @@ class Glue(GluedPatches):
     """
 
     def __init__(
-        self, body: Elastomer, ribs: BeamFrame, wing: WingGeometry, law: Adhesive
+        self, body: Elastomer, ribs: BeamFrame | SolidRibs, wing: WingGeometry, law: Adhesive
     ) -> None:
         roots = wing.rib_roots()
         ends = {"foot": ("root", ["rear_wall"], roots)}
@@ -52,11 +52,11 @@ class Glue(GluedPatches):
         self._ribs = ribs
         super().__init__(body.comm, joined(parts, firsts), np.concatenate(origins), law)
 
-    def join(self, system: EquilibriumSystem, ribs: Block) -> None:
-        """Tell the system whose unknowns the points share; ``ribs`` is the frame's block."""
+    def join(self, system: EquilibriumSystem) -> None:
+        """Tell the system whose unknowns the points share."""
         surface = self._surface
         faces = surface.nodes.numbers[surface.facets[self._all.facet]]
-        feet = {end: self._ribs.end_numbers(ribs, *end) for end in dict.fromkeys(self._feet)}
+        feet = {end: self._ribs.end_numbers(*end) for end in dict.fromkeys(self._feet)}
         self.number(system, faces, np.array([feet[end] for end in self._feet]))
 
     def measures(self) -> dict[str, float]:

@@ -21,7 +21,7 @@ __all__ = ["AUTO", "LADDERS", "Pick", "errors_of", "pick"]
 LADDERS = {
     "spar": ("instant", "cell", "draft", "standard", "reference"),
     "rib": ("instant", "draft", "standard", "reference"),
-    "wing": ("draft", "standard"),
+    "wing": ("draft", "standard", "reference"),
 }
 """Rungs that each scene has, cheapest first."""
 

@@ -41,7 +41,7 @@ class LedLoad:
     def __init__(
         self, mesh: Any, cells: np.ndarray, name: str = "load", unit: float = 1.0
     ) -> None:
-        self._number, self._unit = SharedNumbers(mesh, cells, name), unit
+        self._number, self._unit = SharedNumbers(mesh, [cells], name), unit
         self.blocks = self._number.blocks
         self.given = self._number.constant(0.0)
         self.seen = unit * self._number.seen
@@ -62,4 +62,4 @@ class LedLoad:
     @property
     def value(self) -> float:
         """The load. Collective."""
-        return self._unit * float(self._number.values[0])
+        return self._unit * float(self._number.values[0, 0])

@@ -9,8 +9,10 @@ import numpy as np
 
 from .beam_stress import BeamStress
 from .fields import scene_grids
+from .frame import BeamFrame
 from .path import Path, State
 from .progress import Progress
+from .resin_stress import ResinStress
 from .scene import Scene
 from .wing import Wing
 
@@ -25,7 +27,7 @@ class Limits:
     ``z`` where that is before the deformation. ``material_stability`` is the least of
     `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
     built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
-    von Mises' stress in the bars, is there where a wing has ribs. `morphing_wing.passed.passed`
+    von Mises' stress in the resin, is there where a scene has ribs. `morphing_wing.passed.passed`
     says in words from which load on a limit is passed.
 
     Parameters
@@ -42,10 +44,11 @@ class Limits:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = weakref.proxy(scene)  # which may hold this object
-        self._stress = None
-        for frame, material in (("ribs", "resin"), ("beams", "material")):
-            if getattr(scene, frame, None) is not None:
-                self._stress = BeamStress(getattr(scene, frame), getattr(scene, material))
+        ribs, self._stress = getattr(scene, "ribs", None), None
+        if isinstance(ribs, BeamFrame):
+            self._stress = BeamStress(ribs, ribs.material)
+        elif ribs is not None:
+            self._stress = ResinStress(ribs.body)
 
     def __call__(self, state: State) -> None:
         """Measure the present state."""

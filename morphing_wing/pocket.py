@@ -4,30 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
-from .blocks import Block
 from .contact import Contact, Opposed
 from .elastomer import Elastomer
 from .frame import BeamFrame
-from .surface import Bars, Surface
+from .solid_ribs import SolidRibs
+from .surface import Bars, Crests, Surface
 
 STIFFNESS = 40.0
 """Contact pressure per penetration, N/mm^3."""
 
 
-def in_pocket(body: Elastomer, ribs: BeamFrame | None, rib_block: Block | None) -> Contact:
+def in_pocket(body: Elastomer, ribs: BeamFrame | SolidRibs | None) -> Contact:
     """Return the contact of the upper skin with the lower one, and of the ribs with both.
 
     Parameters
     ----------
     body
         Elastomer with faces ``pocket_upper`` and ``pocket_lower``.
-    ribs, rib_block
-        The frame and its block, or None.
+    ribs
+        The ribs, or None.
     """
     upper, lower = (Surface(body, body.grid.facets[f]) for f in ("pocket_upper", "pocket_lower"))
     sides = [Opposed(upper.nodes, lower, upper.area, np.zeros(len(upper.area)))]
     if ribs is not None:
-        bars = Bars(ribs, rib_block)
-        area = 2.0 * bars.radius * bars.length
-        sides += [Opposed(bars.nodes, side, area, bars.radius) for side in (lower, upper)]
+        found = Bars(ribs) if isinstance(ribs, BeamFrame) else Crests(ribs.body)
+        sides += [Opposed(found.nodes, side, found.area, found.radius) for side in (lower, upper)]
     return Contact(body.comm, sides, STIFFNESS)

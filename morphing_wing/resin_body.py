@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -54,7 +54,7 @@ class ResinBody:
         self, comm: MPI.Comm, grid: TetMesh, material: Elastic, clamped: Sequence[str] = (),
         symmetry: dict[str, int] | None = None,
     ) -> None:
-        self.comm, self.material = comm, material
+        self.comm, self.grid, self.material = comm, grid, material
         self.mesh = compat.create_mesh(comm, "tetrahedron", grid.cells, grid.points)
         self.faces = Faces(self.mesh, grid.facets)
         self.function = fem.Function(compat.vector_space(self.mesh, 2), name="ribs")
@@ -83,9 +83,10 @@ class ResinBody:
         """The measure over the body."""
         return ufl.dx(domain=self.mesh, metadata={"quadrature_degree": QUADRATURE_DEGREE})
 
-    def on_face(self, face: str, integrand: Any) -> Any:
-        """Return the integral of an integrand over a named face, a UFL functional."""
-        return self.faces.on(face, integrand, QUADRATURE_DEGREE)
+    def measure_on(self, faces: Iterable[str]) -> Any:
+        """Return the measure over named faces; what is integrated together shares one."""
+        pairs = np.concatenate([self.grid.facets[face] for face in faces])
+        return self.faces.measure_on(pairs, QUADRATURE_DEGREE)
 
     def lumped_volume(self) -> np.ndarray:
         """Return the volume in mm^3 on each owned unknown."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from dolfinx import fem
@@ -13,13 +13,12 @@ from mpi4py import MPI
 
 from . import compat
 from .angles import deflection_line, rotation_about_z
-from .blocks import Block
 from .drawing import Drawing, bar_radii, default_drawing
 from .errors import require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .forms.gravity import mass_density
-from .frame import BeamFrame, FrameEnd, turned_x
+from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
 from .ladder import pick
@@ -30,6 +29,9 @@ from .scene import Scene
 from .stepping import Stepping
 from .system import EquilibriumSystem
 from .tension import check_tension
+
+if TYPE_CHECKING:
+    from .solid_ribs import SolidRibs
 
 
 class Rib(Scene):
@@ -60,6 +62,7 @@ class Rib(Scene):
     name = "rib"
     load_names = ("torque_Nmm", "cable_N")
     stepping = Stepping(easy=10)
+    _element = "Simo-Reissner beam, quadratic, 2 Gauss points"
 
     def __new__(
         cls, geometry: RibGeometry, material: Elastic = RESIN, fidelity: str = "draft",
@@ -88,19 +91,14 @@ class Rib(Scene):
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self._options_prefix = options_prefix
-        self._build()
-        self._guide = compat.constant(self.tail.mesh, self._tail_place + [0.0, -100.0, 0.0])
+        self.ribs = ribs = self._made()
+        local = [part.block for part in ribs.parts if part.block.local]
+        self.system = EquilibriumSystem(self.comm, [*ribs.unknowns, *local])
+        ribs.join(self.system)
+        self._guide = compat.constant(ribs.motion_mesh, [0.0, -100.0, 0.0])
 
-    def _build(self) -> None:
-        """Make the system, and the tail that loads act on."""
-        self.beams = BeamFrame(self.comm, self.geometry.frame(), self.material)
-        self.tail = FrameEnd(self.beams, "tail")
-        clamped = self.beams.end_dofs("root", 0)
-        self.system = EquilibriumSystem(self.comm, [Block(self.beams.function, clamped)])
-
-    @property
-    def _tail_place(self) -> np.ndarray:
-        return np.array([self.geometry.length, 0.0, 0.0])
+    def _made(self) -> BeamFrame | SolidRibs:
+        return BeamFrame(self.comm, self.geometry.frame(), self.material, clamped=True)
 
     def bend(
         self,
@@ -146,7 +144,7 @@ class Rib(Scene):
             See `Scene.follow`.
         """
         check_tension(cable)
-        place = self._tail_place + _guide(guide)
+        place = _guide(guide)
         if not np.array_equal(place, self._guide.value):
             self._guide.value = place
             self._in_use = None  # to be taken up anew: work counts from the new guide on
@@ -158,66 +156,62 @@ class Rib(Scene):
     @property
     def functions(self) -> dict[str, fem.Function]:
         """Displacement in mm (and rotation vector) by name."""
-        return {"ribs": self.beams.function}
+        return {"ribs": self.ribs.function}
 
     def drawing(self, state: State) -> Drawing:
         """Return how to draw the present state: bars as tubes."""
-        return replace(default_drawing(self), radius={"ribs": bar_radii(self.beams.frame)})
+        return replace(default_drawing(self), radius={"ribs": bar_radii(self.ribs.frame)})
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
         return {
             "geometry": asdict(self.geometry),
             "material": asdict(self.material),
-            "element": "Simo-Reissner beam, quadratic, 2 Gauss points",
-            "guide_mm": [float(x) for x in self._guide.value - self._tail_place],
+            "element": self._element,
+            "guide_mm": [float(x) for x in self._guide.value],
         }
 
     # -- what the scene is made of ------------------------------------------------------------
 
     def _iterates(self) -> list[Iterate]:
-        return [self.beams.iterate]
+        return [part.iterate for part in self.ribs.parts]
 
     def _newton(self) -> Newton:
         return Newton(self.system, self._options_prefix, before_tangent=self.before_tangent)
 
     def _functional(self, in_use: tuple[str, ...]) -> tuple[list[Any], Any]:
-        tail = self.tail
-        position = compat.constant(tail.mesh, self._tail_place) + displacement(tail.motion)
+        ribs = self.ribs
         potentials = {
-            "torque_Nmm": lambda torque: torque * tail.motion[5],
-            "cable_N": lambda tension: cable_potential(tension, position, self._guide),
+            "torque_Nmm": lambda torque: torque * ribs.motion[5],
+            "cable_N": lambda tension: cable_potential(
+                tension, displacement(ribs.motion), self._guide),
         }
         energies = self._stored()
         self.loads, self._shortenings = {}, {}
         for name in in_use:
-            load = compat.constant(tail.mesh, 0.0)
-            energies.append(tail.at(potentials[name](load) / self.multiplicity))
-            unit = potentials[name](1.0 / self.multiplicity)
-            self._shortenings[name] = compat.form(tail.at(-unit))
+            load, part = compat.constant(ribs.motion_mesh, 0.0), 1.0 / self.multiplicity
+            energies.append(ribs.at_ends("tail", potentials[name](part * load)))
+            self._shortenings[name] = compat.form(ribs.at_ends("tail", -potentials[name](part)))
             self.loads[name] = [load]
-        return energies, self._corrections()
-
-    def _corrections(self) -> dict[int, Any]:
-        """Return what makes tangents robust, by block."""
-        return {0: self.beams.tangent_correction}
+        return energies, self._corrections(ribs.parts)
 
     def _stored(self) -> list[Any]:
-        return [self.beams.energy]
+        return [part.energy for part in self.ribs.parts]
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown."""
-        return [mass_density(self.material.density) * self.beams.lumped_volume()]
+        density = mass_density(self.material.density)
+        return [density * volume for volume in self.ribs.lumped_volumes()]
 
     def _conjugates(self) -> dict[str, float]:
         return {name: compat.assemble_scalar(self.comm, form)
                 for name, form in self._shortenings.items()}
 
     def _measures(self) -> dict[str, float]:
-        tail = self.tail.values()
+        tail = self.ribs.end_values("tail", 0)
         return {
             "chord_angle_deg": rotation_about_z(turned_x(tail[3:])),
-            "chord_line_deg": deflection_line(tail[:3], self._tail_place),
+            "chord_line_deg": deflection_line(tail[:3], np.array([self.geometry.length, 0.0, 0.0])),
         }
 
 

@@ -289,6 +289,11 @@ class Scene(ABC):
         Sets ``self.loads``: of each load in use the constants that carry it.
         """
 
+    def _corrections(self, parts: Sequence[Any]) -> dict[int, Any]:
+        """Return what makes the tangents of parts robust, by their blocks' places in the system."""
+        return {i: part.tangent_correction for i, block in enumerate(self.system.blocks)
+                for part in parts if part.block is block}
+
     def _iterates(self) -> list[Iterate]:
         """Return what mixed-point tangents need of earlier iterates."""
         return []

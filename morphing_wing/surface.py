@@ -13,6 +13,8 @@ from .blocks import Block
 from .elastomer import Elastomer
 from .frame import BeamFrame
 from .geometry.facets import node_areas
+from .geometry.tetmesh import FACET_VERTICES
+from .resin_body import ResinBody
 
 
 class Nodes:
@@ -110,13 +112,13 @@ class Bars:
     ----------
     nodes
         The nodes.
-    length
-        The mean share of the bars' length that a node has, mm.
+    area : (n,) array
+        What each node stands for, mm^2: its share of the bars' length, as wide as they are high.
     radius : (n,) array
         Half the height of the thickest bar at it, mm.
     """
 
-    def __init__(self, ribs: BeamFrame, block: Block) -> None:
+    def __init__(self, ribs: BeamFrame) -> None:
         """Take the bars that have a height."""
         radius, lengths = ribs.frame.half_heights(), ribs.frame.lengths()
         space = ribs.function.function_space
@@ -129,11 +131,49 @@ class Bars:
         names, radii = (np.concatenate(part) for part in zip(
             *ribs.comm.allgather((names, radii)), strict=True))
         six = np.arange(len(ribs.function.x.array)).reshape(-1, 6)
-        self.nodes = Nodes(ribs.comm, space, block, six[:, :3], names)
+        self.nodes = Nodes(ribs.comm, space, ribs.block, six[:, :3], names)
         n = len(self.nodes.reference)
-        self.length = float(lengths[~np.isnan(radius)].sum()) / n
         self.radius = np.zeros(n)
         np.maximum.at(self.radius, self.nodes.index_of(names), radii)
+        self.area = 2.0 * self.radius * float(lengths[~np.isnan(radius)].sum()) / n
+
+
+class Crests:
+    """The vertices of a resin body's faces ``crests``.
+
+    Attributes
+    ----------
+    nodes
+        The nodes.
+    area : (n,) array
+        Each node's share of the area seen from above, mm^2.
+    radius : (n,) array
+        Zeros.
+    """
+
+    def __init__(self, body: ResinBody) -> None:
+        space, grid = body.function.function_space, body.grid
+        pairs = np.concatenate([found for name, found in grid.facets.items() if "crests" in name])
+        vertices = grid.cells[pairs[:, :1], FACET_VERTICES[pairs[:, 1]]]
+        corners = grid.points[vertices]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        share = np.repeat(np.abs(across[:, 1]) / 6.0, 3)
+        original = compat.original_cells(body.mesh)
+        n_owned = body.mesh.topology.index_map(3).size_local
+        here = np.flatnonzero(np.isin(pairs[:, 0], original[:n_owned]))
+        order = np.argsort(original)
+        cells = order[np.searchsorted(original, pairs[here, 0], sorter=order)]
+        nodes = np.array([space.dofmap.cell_dofs(cell)[FACET_VERTICES[facet]]
+                          for cell, facet in zip(cells, pairs[here, 1], strict=True)], np.int32)
+        names = space.dofmap.index_map.local_to_global(nodes.ravel())
+        rows = (3 * here[:, None] + np.arange(3)).ravel()
+        names, rows = (np.concatenate(part) for part in zip(
+            *body.comm.allgather((names, rows)), strict=True))
+        dofs = np.arange(len(body.function.x.array)).reshape(-1, 3)
+        self.nodes = Nodes(body.comm, space, body.block, dofs, names)
+        self.area = np.zeros(len(self.nodes.reference))
+        np.add.at(self.area, self.nodes.index_of(names), share[rows])
+        self.radius = np.zeros_like(self.area)
 
 
 def _outward(

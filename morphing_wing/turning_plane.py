@@ -45,7 +45,7 @@ class TurningPlane:
     ) -> None:
         cells = np.unique(np.concatenate([body.faces.cells(name) for name in (face, *chambers)]))
         self._at_rest = distance
-        self._numbers = [SharedNumbers(body.mesh, cells, name) for name in ("turn", "shift")]
+        self._numbers = [SharedNumbers(body.mesh, [cells], name) for name in ("turn", "shift")]
         turn, shift = (number.seen for number in self._numbers)
         # Constants, so that another geometry or material of this kind compiles nothing.
         stiffness, at_rest = (compat.constant(body.mesh, value) for value in (
@@ -63,9 +63,9 @@ class TurningPlane:
     @property
     def turn(self) -> float:
         """Turn about x in radians, positive when the face then looks down. Collective."""
-        return float(self._numbers[0].values[0])
+        return float(self._numbers[0].values[0, 0])
 
     @property
     def distance(self) -> float:
         """Distance in mm of the plane from the origin. Collective."""
-        return self._at_rest + float(self._numbers[1].values[0])
+        return self._at_rest + float(self._numbers[1].values[0, 0])

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from . import compat
 from .elastomer import Elastomer
-from .forms.beam import displacement
 from .forms.gravity import gravity_potential, specific_weight
 from .frame import BeamFrame
+from .solid_ribs import SolidRibs
 
 
 class Weight:
-    """The weight of an elastomer body, and of a frame of ribs if there is one, along -y.
-
-    Bars weigh by their whole length: the little in which they overlap at joints weighs twice.
+    """The weight of an elastomer body, and of ribs if there are any, along -y.
 
     Attributes
     ----------
@@ -22,16 +20,14 @@ class Weight:
         UFL functionals in N mm, one a mesh.
     """
 
-    def __init__(self, body: Elastomer, ribs: BeamFrame | None) -> None:
+    def __init__(self, body: Elastomer, ribs: BeamFrame | SolidRibs | None) -> None:
         self._comm = body.comm
         weight = compat.constant(body.mesh, specific_weight(body.material.density))
         rises = [gravity_potential(weight, body.u) * body.volume_measure()]
         meshes = [body.mesh]
         if ribs is not None:
-            weight = compat.constant(ribs.mesh, specific_weight(ribs.material.density))
-            line = weight * ribs.cellwise(ribs.frame.areas())
-            rises.append(gravity_potential(line, displacement(ribs.function)) * ribs.measure)
-            meshes.append(ribs.mesh)
+            rises.append(ribs.rise(specific_weight(ribs.material.density)))
+            meshes.append(ribs.function.function_space.mesh)
         self.multiples = [compat.constant(mesh, 0.0) for mesh in meshes]
         self.potentials = [n * rise for n, rise in zip(self.multiples, rises, strict=True)]
         self._rises = [compat.form(rise) for rise in rises]

@@ -11,7 +11,6 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
-from .blocks import Block
 from .cables import Cables
 from .chambers import Chambers
 from .drawing import Drawing
@@ -31,6 +30,7 @@ from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
 from .pocket import in_pocket
+from .solid_ribs import SolidRibs
 from .system import EquilibriumSystem
 from .tension import check_tension
 from .weight import Weight
@@ -41,15 +41,25 @@ from .wing_trim import TrimmedWing
 
 @dataclass(frozen=True)
 class WingFidelity:
-    """One rung of the wing's ladder: a mesh and an element."""
+    """One rung of the wing's ladder.
+
+    Attributes
+    ----------
+    meshing, element
+        Of the elastomer.
+    around
+        Elements around a pivot of solid ribs; None: the ribs are frames.
+    """
 
     meshing: WingMeshing
     element: str
+    around: int | None = None
 
 
 FIDELITIES = {
     "draft": WingFidelity(WingMeshing.fine(), "Q1 enhanced"),
     "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
+    "reference": WingFidelity(WingMeshing.graded(), "Q2 reduced", around=6),
 }
 
 
@@ -114,28 +124,26 @@ class Wing(TrimmedWing):
         super().__init__(picked, comm)
         self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
         self._options_prefix = options_prefix
-        self.ribs: BeamFrame | None = None
+        self.ribs: BeamFrame | SolidRibs | None = None
         self.glue: Glue | None = None
         self.body = Elastomer(
             self.comm, wing_mesh(geometry, meshing or rung.meshing), elastomer,
             element_named(element or rung.element), clamped=("root",), thin=("skin",),
             prestretch=prestretch,
         )
-        blocks, bars = [self.body.block], None
+        unknowns = [self.body.block]
         if geometry.rib is not None:
-            frames = [geometry.rib.frame().placed(root) for root in geometry.rib_roots()]
-            self.ribs = BeamFrame(self.comm, join(frames), resin)
-            bars = Block(self.ribs.function)
+            self.ribs = _ribs(self.comm, geometry, resin, rung)
             law = adhesive or Adhesive(geometry.glue_stiffness)
             self.glue = Glue(self.body, self.ribs, geometry, law)
-            blocks += [bars, self.glue.block]
-        self.pocket = in_pocket(self.body, self.ribs, bars) if self.has_skin else None
+            unknowns += self.ribs.unknowns
+        self.pocket = in_pocket(self.body, self.ribs) if self.has_skin else None
         self.contact = self.pocket if contact else None
-        if self.contact is not None:
-            blocks.append(self.contact.block)
-        self.system = EquilibriumSystem(self.comm, blocks)
-        if self.glue is not None:
-            self.glue.join(self.system, bars)
+        local = [part.block for part in self._parts() if part.block.local]
+        self.system = EquilibriumSystem(self.comm, unknowns + local)
+        for part in (self.ribs, self.glue):
+            if part is not None:
+                part.join(self.system)
 
     @property
     def has_skin(self) -> bool:
@@ -272,20 +280,23 @@ class Wing(TrimmedWing):
             self._weight = Weight(self.body, self.ribs)
             self.loads["gravity_g"] = self._weight.multiples
             energies += self._weight.potentials
-        return energies, [part.tangent_correction for part in self._parts()]
+        return energies, self._corrections(self._parts())
 
     def _stored(self) -> list[Any]:
         return [getattr(part, "stored", part.energy) for part in self._parts()]
 
     def _parts(self) -> list[Any]:
-        """Return what stores energy, in the order of the blocks."""
-        parts = (self.body, self.ribs, self.glue, self.contact)
-        return [part for part in parts if part is not None]
+        """Return what stores energy."""
+        ribs = self.ribs.parts if self.ribs is not None else ()
+        return [part for part in (self.body, *ribs, self.glue, self.contact) if part is not None]
 
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown, of the elastomer and the ribs."""
-        parts = [part for part in (self.body, self.ribs) if part is not None]
-        return [mass_density(part.material.density) * part.lumped_volume() for part in parts]
+        found = [mass_density(self.elastomer.density) * self.body.lumped_volume()]
+        if self.ribs is not None:
+            resin = mass_density(self.resin.density)
+            found += [resin * volume for volume in self.ribs.lumped_volumes()]
+        return found
 
     def _conjugates(self) -> dict[str, float]:
         found = self._chambers.volumes()
@@ -307,3 +318,11 @@ class Wing(TrimmedWing):
             gap = self.pocket.smallest_gap()
             found |= {"gap_mm": gap, "contact": float(gap < 0.0)}
         return found
+
+
+def _ribs(
+    comm: MPI.Comm, wing: WingGeometry, resin: Elastic, rung: WingFidelity
+) -> BeamFrame | SolidRibs:
+    if rung.around is not None:
+        return SolidRibs(comm, wing.rib, resin, rung.around, wing.rib_roots())
+    return BeamFrame(comm, join([wing.rib.frame().placed(x) for x in wing.rib_roots()]), resin)

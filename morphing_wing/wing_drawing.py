@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .drawing import Cut, Drawing, bar_radii, default_drawing
+from .frame import BeamFrame
 
 if TYPE_CHECKING:
     from .path import State
@@ -20,12 +21,13 @@ def wing_drawing(scene: Wing, state: State) -> Drawing:
     """Return how to draw a wing that stands in a state. Collective."""
     wing, cuts, cables, radius = scene.geometry, [Cut("x", 0.25 * scene.geometry.chord)], [], {}
     if scene.ribs is not None:
-        frame = scene.ribs.frame
-        radius = {"ribs": bar_radii(frame)}
-        middle = frame.points[frame.roots[len(frame.roots) // 2], 2]
-        cuts.append(Cut("z", middle + 0.5 * wing.cavity_length + 3.0))
-        for i, tail in enumerate(frame.tails if state.load.get("cable_N") else ()):
-            start = frame.points[tail] + scene.ribs.end_values("tail", i)[:3]
-            way = frame.points[tail] + np.array(wing.cable_guide) - start
+        if isinstance(scene.ribs, BeamFrame):
+            radius = {"ribs": bar_radii(scene.ribs.frame)}
+        roots = wing.rib_roots()
+        tails = roots + np.array([wing.rib.length, 0.0, 0.0])
+        cuts.append(Cut("z", roots[len(roots) // 2, 2] + 0.5 * wing.cavity_length + 3.0))
+        for i, tail in enumerate(tails if state.load.get("cable_N") else ()):
+            start = tail + scene.ribs.end_values("tail", i)[:3]
+            way = tail + np.array(wing.cable_guide) - start
             cables.append(np.array([start, start + 40.0 * way / np.linalg.norm(way)]))
     return replace(default_drawing(scene), cuts=cuts, radius=radius, cables=cables)

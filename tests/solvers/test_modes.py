@@ -100,9 +100,9 @@ def test_all_of_a_bodys_and_a_ribs_mass_is_there():
     strip = Strip(imperfection=0.0, regularised=False)
     assert mass(strip.body).sum() == pytest.approx(3e-9 * 1080 * LENGTH * HEIGHT)
     rib = Rib(RibGeometry.validation())
-    frame = rib.beams.frame
+    frame = rib.ribs.frame
     length = np.linalg.norm(frame.points[frame.bars[:, 1]] - frame.points[frame.bars[:, 0]], axis=1)
-    assert mass(rib.beams).sum() == pytest.approx(3e-9 * 1180 * (frame.areas() @ length))
+    assert mass(rib.ribs).sum() == pytest.approx(3e-9 * 1180 * (frame.areas() @ length))
 
 
 def test_what_has_no_modes_says_so():

@@ -87,7 +87,7 @@ def test_a_cable_led_to_another_guide_under_tension_does_no_work_by_that():
 def test_symmetric_layers_keep_the_tail_in_its_plane():
     bent = rib(RibGeometry.prototype(6, "square"))
     bent.bend(torque=20.0)
-    tail = bent.beams.end_values("tail", 0)
+    tail = bent.ribs.end_values("tail", 0)
     assert np.abs(tail[[2, 3, 4]]).max() < 1e-9 * np.abs(tail).max()
 
 
