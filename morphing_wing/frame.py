@@ -100,14 +100,14 @@ class BeamFrame:
         line = compat.constant(self.mesh, weight) * self.cellwise(self.frame.areas())
         return gravity_potential(line, displacement(self.function)) * self.measure
 
-    def lumped_volumes(self) -> list[np.ndarray]:
+    def lumped_volume(self) -> np.ndarray:
         """Return the volume in mm^3 on each owned unknown; none on a rotation: bars are thin."""
         space, area = self.function.function_space, self.cellwise(self.frame.areas())
         v, volume = ufl.TestFunction(space), fem.Function(space)
         compat.assemble_vector(
             compat.form(area * (v[0] + v[1] + v[2]) * self.measure), volume.x.array)
         compat.add_ghosts(volume)
-        return [volume.x.array[: 6 * space.dofmap.index_map.size_local].copy()]
+        return volume.x.array[: 6 * space.dofmap.index_map.size_local].copy()
 
     def cellwise(self, values: np.ndarray) -> fem.Function:
         """Return the function with one value (scalar, vector, matrix) a bar, given as (m, ...)."""

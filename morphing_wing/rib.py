@@ -201,7 +201,7 @@ class Rib(Scene):
     def masses(self) -> list[np.ndarray]:
         """Return the lumped mass in kg on each owned unknown."""
         density = mass_density(self.material.density)
-        return [density * volume for volume in self.ribs.lumped_volumes()]
+        return [density * part.lumped_volume() for part in self.ribs.parts]
 
     def _conjugates(self) -> dict[str, float]:
         return {name: compat.assemble_scalar(self.comm, form)

@@ -91,3 +91,7 @@ class RigidEnds:
     def values(self, name: str) -> np.ndarray:
         """Return translation in mm and rotation vector, (6,), on every rank. Collective."""
         return self._numbers.values[self._names.index(name)]
+
+    def lumped_volume(self) -> np.ndarray:
+        """Return the volume in mm^3 on each owned unknown: none."""
+        return np.zeros(self.own_block.n_owned)

@@ -99,7 +99,3 @@ class SolidRibs:
         """Return the integral of a weight in N/mm^3 times the way up, a UFL functional."""
         density = compat.constant(self.body.mesh, weight)
         return gravity_potential(density, self.function) * self.body.measure
-
-    def lumped_volumes(self) -> list[np.ndarray]:
-        """Return the volume in mm^3 on each owned unknown, of each of ``unknowns``."""
-        return [self.body.lumped_volume(), np.zeros(self.ends.own_block.n_owned)]

@@ -295,7 +295,7 @@ class Wing(TrimmedWing):
         found = [mass_density(self.elastomer.density) * self.body.lumped_volume()]
         if self.ribs is not None:
             resin = mass_density(self.resin.density)
-            found += [resin * volume for volume in self.ribs.lumped_volumes()]
+            found += [resin * part.lumped_volume() for part in self.ribs.parts]
         return found
 
     def _conjugates(self) -> dict[str, float]:
