@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from morphing_wing import solid_rib
 from morphing_wing.fields import mode_grids
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
@@ -165,3 +166,15 @@ def test_modes_are_the_same():
                 shape = grid.point_data["mode"]
                 sign = np.sign(np.vdot(shape, alone))
                 np.testing.assert_allclose(sign * shape, alone, atol=1e-5)
+
+
+def test_a_solid_rib_is_the_same(monkeypatch):
+    monkeypatch.setitem(solid_rib.AROUND, "standard", 6)
+    geometry = replace(RibGeometry.validation("square", bosses=True), n_cells=2)
+    compare(lambda comm: Rib(geometry, fidelity="standard", comm=comm).bend(torque=[5.0, 40.0]))
+
+
+def test_a_wing_with_a_solid_rib_is_the_same():
+    geometry = replace(GEOMETRY, skin_thickness=None, rib=replace(GEOMETRY.rib, n_cells=2))
+    compare(lambda comm: small_wing(
+        comm, geometry=geometry, fidelity="reference").actuate(upper=0.01, cable=0.1))

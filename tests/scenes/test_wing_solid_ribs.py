@@ -1,0 +1,44 @@
+"""Wings with solid ribs: as those with frames, but for what a frame leaves out."""
+
+from dataclasses import replace
+
+import pytest
+from mpi4py import MPI
+
+from morphing_wing.weight import Weight
+from tests.scenes.small_wing import GEOMETRY, small_wing
+
+SHORT = replace(GEOMETRY, rib=replace(GEOMETRY.rib, n_cells=3))
+BARE = replace(SHORT, skin_thickness=None)
+
+
+def wing(fidelity, geometry=BARE):
+    return small_wing(MPI.COMM_SELF, geometry=geometry, fidelity=fidelity)
+
+
+def test_cables_and_pressure_turn_a_wing_with_solid_ribs_as_one_with_frames():
+    solid, frame = (wing(fidelity).actuate(upper=0.01, cable=0.2)[-1]
+                    for fidelity in ("reference", "draft"))
+    assert solid.measures["span_angle_deg"] == pytest.approx(
+        frame.measures["span_angle_deg"], rel=0.02)
+    assert solid.measures["rib_1_rotation_deg"] == pytest.approx(
+        frame.measures["rib_1_rotation_deg"], rel=0.05)
+    assert solid.energy_Nmm == pytest.approx(solid.external_work_Nmm, rel=1e-3)
+    assert solid.negative_pivots == 0
+
+
+def test_a_ribs_weight_is_that_of_its_volume():
+    scene = wing("reference")
+    moved = scene.ribs.function.x.array.reshape(-1, 3)
+    moved[:, 1] = 2.0
+    weight = 1180.0e-9 * 9.80665 * scene.ribs.body.grid.volume()
+    assert Weight(scene.body, scene.ribs).fall() == pytest.approx(-2.0 * weight, rel=1e-6)
+
+
+def test_crests_of_a_solid_rib_are_as_far_from_the_skin_as_a_frames_bars():
+    gaps = []
+    for fidelity in ("reference", "draft"):
+        path = wing(fidelity, SHORT).actuate(cable=[0.5, 1.0])
+        assert path.converged, path.reason
+        gaps.append([state.measures["gap_mm"] for state in path if state.requested])
+    assert gaps[0] == pytest.approx(gaps[1], abs=0.3)
