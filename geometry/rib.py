@@ -134,6 +134,11 @@ class RibGeometry:
         """In-plane width of a bar, mm."""
         return self.pivot_diameter if self.section == "flush" else self.shaft_thickness
 
+    @property
+    def runs_through(self) -> bool:
+        """Whether cylinders go on through the bars: with bosses, or where bars are as wide."""
+        return self.bosses or self.shaft_width > 0.999 * self.pivot_diameter
+
     def frame(self) -> Frame:
         """Return the rib as a frame with one root and one tail point.
 

@@ -145,11 +145,6 @@ def _layers(half: bool) -> tuple[int, ...]:
     return (0, 1) if half else (-1, 0, 1)
 
 
-def _runs_through(rib: RibGeometry) -> bool:
-    """Return whether cylinders go on through the bars."""
-    return rib.bosses or rib.shaft_width > 0.999 * rib.pivot_diameter
-
-
 def _add_bar(build: Any, rib: RibGeometry, bar: Bar, half: bool) -> int:
     """Add a prism, return its tag."""
     outline, bend = _outline(rib, bar)
@@ -171,10 +166,10 @@ def _add_bar(build: Any, rib: RibGeometry, bar: Bar, half: bool) -> int:
 def _add_pivot(build: Any, rib: RibGeometry, pivot: Pivot, half: bool) -> list[int]:
     """Add the cylinders of a joint, return their tags."""
     x, y, _ = rib.joint(pivot.name, pivot.number)
-    overlap = 0.5 * rib.shaft_thickness * (1.0 if _runs_through(rib) else -1.0)
+    overlap = 0.5 * rib.shaft_thickness * (1.0 if rib.runs_through else -1.0)
     if half:
         spans = [(max(overlap * -1.0, 0.0), rib.spacing + overlap)]
-    elif _runs_through(rib):
+    elif rib.runs_through:
         spans = [(-rib.spacing - overlap, rib.spacing + overlap)]
     else:
         spans = [(-rib.spacing - overlap, overlap), (-overlap, rib.spacing + overlap)]
@@ -202,7 +197,7 @@ def _outline(
                 side[row] += (x - side[row][0]) / along[0] * along
     outline = [tuple(p) for p in lower] + [tuple(p) for p in upper[::-1]]
     bend = {}
-    if not _runs_through(rib):  # else the cylinder is the bar's end
+    if not rib.runs_through:  # else the cylinder is the bar's end
         if bar.stop == 1.0 and not at_tail:
             outline.insert(len(lower), tuple(b + half * along))
             bend |= {len(lower) - 1: tuple(b), len(lower): tuple(b)}

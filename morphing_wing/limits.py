@@ -14,6 +14,7 @@ from .path import Path, State
 from .progress import Progress
 from .resin_stress import ResinStress
 from .scene import Scene
+from .shaft_gap import ShaftGap
 from .wing import Wing
 
 __all__ = ["Limits", "actuated"]
@@ -27,7 +28,8 @@ class Limits:
     ``z`` where that is before the deformation. ``material_stability`` is the least of
     `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
     built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
-    von Mises' stress in the resin, is there where a scene has ribs. `morphing_wing.passed.passed`
+    von Mises' stress in the resin, is there where a scene has ribs, and ``shaft_gap_mm``, how
+    far apart those of their shafts are that are neighbours in a layer. `morphing_wing.passed.passed`
     says in words from which load on a limit is passed.
 
     Parameters
@@ -49,6 +51,7 @@ class Limits:
             self._stress = BeamStress(ribs, ribs.material)
         elif ribs is not None:
             self._stress = ResinStress(ribs.body)
+        self._gap = None if ribs is None else ShaftGap(ribs, *scene.rib_places())
 
     def __call__(self, state: State) -> None:
         """Measure the present state."""
@@ -57,6 +60,7 @@ class Limits:
             state.measures.update(scene.comm.bcast(self._stretches(state)))
         if self._stress is not None:
             state.measures["rib_stress_MPa"] = self._stress.largest()
+            state.measures["shaft_gap_mm"] = self._gap.smallest()
 
     def _stretches(self, state: State) -> dict[str, float] | None:
         """Return what the stretches tell, on rank 0."""

@@ -49,4 +49,7 @@ _LIMITS: tuple[tuple[str, Callable[[float], bool], Callable[[_Measures], str]], 
     ("rib_stress_MPa", lambda stress: stress > YIELD_MPA,
      lambda m: f"the resin yields ({YIELD_MPA:g} MPa): its stress is "
                f"{m['rib_stress_MPa']:.3g} MPa"),
+    ("shaft_gap_mm", lambda gap: gap < 0.0,
+     lambda m: f"neighbouring shafts of a rib pass through each other, by "
+               f"{-m['shaft_gap_mm']:.2g} mm"),
 )

@@ -151,6 +151,10 @@ class Rib(Scene):
         self.primary_load = "cable_N"
         return self.follow({"cable_N": cable}, on_step, on_cut, restart, resume)
 
+    def rib_places(self) -> tuple[RibGeometry, np.ndarray, bool]:
+        """Return the rib, where its root is, (1, 3) in mm, and whether it is a half."""
+        return self.geometry, np.zeros((1, 3)), self.multiplicity == 2
+
     # -- for the pictures ---------------------------------------------------------------------
 
     @property

@@ -20,6 +20,7 @@ from .errors import require
 from .forms.gravity import mass_density
 from .frame import BeamFrame
 from .geometry.frame import join
+from .geometry.rib import RibGeometry
 from .geometry.wing import WingGeometry
 from .geometry.wing_mesh import WingMeshing, wing_mesh
 from .glue import Glue
@@ -199,6 +200,10 @@ class Wing(TrimmedWing):
                 if not built_in.converged:
                     return built_in
         return self.follow(loads, on_step, on_cut, restart, resume)
+
+    def rib_places(self) -> tuple[RibGeometry, np.ndarray, bool]:
+        """Return the ribs, where their roots are, (n, 3) in mm, and whether they are halves."""
+        return self.geometry.rib, self.geometry.rib_roots(), False
 
     # -- for the pictures ---------------------------------------------------------------------
 

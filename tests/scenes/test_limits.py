@@ -86,3 +86,16 @@ def test_torn_silicone_is_named_at_the_first_load_beyond():
     assert passed([state(0.01, 2.0), state(0.02, 4.7), state(0.03, 5.0)]) == [
         "from upper = 0.02 MPa on the paper's silicone would tear (stretch 4.64): the stretch is "
         "4.7 at (0, 7.4, 8.6) mm"]
+
+
+def test_shafts_of_an_undeformed_rib_are_their_axes_distance_less_their_widths_apart():
+    geometry = RibGeometry(4.0, 1.0, 1.5, 6.0, 50.0, 6)
+    rib = Rib(geometry, comm=MPI.COMM_SELF)
+    rib.watch.append(Limits(rib))
+    gap = 0.5 * 4.0 * np.sin(np.radians(50.0)) - 0.75 - 0.75
+    assert rib.bend(torque=0.0)[-1].measures["shaft_gap_mm"] == pytest.approx(gap)
+    path = rib.bend(torque=[10.0, 20.0, 30.0])
+    gaps = [state.measures["shaft_gap_mm"] for state in path]
+    assert (np.diff(gaps) < 0.0).all()
+    assert gaps[-1] < 0.0
+    assert any("neighbouring shafts" in sentence for sentence in passed(path))
