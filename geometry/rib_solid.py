@@ -18,7 +18,7 @@ import numpy as np
 
 from morphing_wing.errors import InputError, require
 
-from .rib import RibGeometry
+from .rib import LAYERS, RibGeometry
 from .tetmesh import EDGES, TetMesh, with_faces
 
 NOTCH = 0.006
@@ -78,7 +78,7 @@ def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
         If parts collide that are not joined.
     """
     n, length = rib.n_cells, rib.length
-    bars = [Bar(layer, i) for layer in _layers(half) for i in range(1, n + 1)]
+    bars = [Bar(layer, i) for layer in ((0, 1) if half else LAYERS[rib.layers]) for i in range(1, n + 1)]
     pivots = [Pivot(name, i) for name in "TB" for i in range(1, n)]
     pivots += [Pivot("C", i) for i in range(1, n + 1)]
     at = {"root": lambda x: np.abs(x[:, 0]) < 1e-6,
@@ -139,10 +139,6 @@ def check_room(rib: RibGeometry) -> None:
 
 
 # -- parts ------------------------------------------------------------------------------------
-
-
-def _layers(half: bool) -> tuple[int, ...]:
-    return (0, 1) if half else (-1, 0, 1)
 
 
 def _add_bar(build: Any, rib: RibGeometry, bar: Bar, half: bool) -> int:

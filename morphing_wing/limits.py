@@ -29,8 +29,8 @@ class Limits:
     `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
     built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
     von Mises' stress in the resin, is there where a scene has ribs, and ``shaft_gap_mm``, how
-    far apart those of their shafts are that are neighbours in a layer. `morphing_wing.passed.passed`
-    says in words from which load on a limit is passed.
+    far apart neighbouring shafts of a layer are. `morphing_wing.passed.passed` says in words from
+    which load on a limit is passed.
 
     Parameters
     ----------

@@ -146,7 +146,7 @@ def stiffness_table(
 
 
 def tail_compliance(rib: Rib) -> np.ndarray:
-    """Return C of a frame rib in the converged state in which it stands; new ribs are at rest.
+    """Return C of a whole rib in the converged state in which it stands; new ribs are at rest.
 
     One factorisation and six solutions. Collective. The rotation vector works with moments in
     space only at theta = 0; in a bent state rows and columns 3 to 5 are of its components.
@@ -158,7 +158,7 @@ def tail_compliance(rib: Rib) -> np.ndarray:
     """
     rib.take_into_use([])
     factor, system = rib.linearise(), rib.system
-    numbers = rib.beams.end_numbers(system.blocks[0], "tail", 0)
+    numbers = rib.ribs.end_numbers("tail", 0)
     first, end = system.x.getOwnershipRange()
     here = np.flatnonzero((numbers >= first) & (numbers < end))
     compliance = np.zeros((6, 6))
