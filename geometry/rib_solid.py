@@ -78,7 +78,8 @@ def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
         If parts collide that are not joined.
     """
     n, length = rib.n_cells, rib.length
-    bars = [Bar(layer, i) for layer in ((0, 1) if half else LAYERS[rib.layers]) for i in range(1, n + 1)]
+    layers = (0, 1) if half else LAYERS[rib.layers]
+    bars = [Bar(layer, i) for layer in layers for i in range(1, n + 1)]
     pivots = [Pivot(name, i) for name in "TB" for i in range(1, n)]
     pivots += [Pivot("C", i) for i in range(1, n + 1)]
     at = {"root": lambda x: np.abs(x[:, 0]) < 1e-6,

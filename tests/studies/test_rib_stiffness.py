@@ -79,7 +79,7 @@ def test_compliance_is_what_small_moments_and_pulls_move(layers):
         for sign in (1.0, -1.0):
             rib = Rib(geometry, RESIN, comm=MPI.COMM_SELF)
             assert load(rib, sign).converged
-            sides.append(rib.tail.values())
+            sides.append(rib.ribs.end_values("tail", 0))
         difference = (sides[0] - sides[1]) / (2.0 * small)
         size = np.sqrt(np.diag(C)) * np.linalg.norm(column / np.sqrt(np.diag(C)))
         np.testing.assert_allclose(difference / size, column / size, atol=1e-5)
