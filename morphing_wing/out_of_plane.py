@@ -42,7 +42,7 @@ def out_of_plane(path: Path) -> pd.DataFrame:
     rows = []
     for state in path:
         with shown(path.scene, state):
-            tail = path.scene.tail.values()
+            tail = path.scene.ribs.end_values("tail", 0)
             sideways = np.abs(path.scene.ribs.function.x.array[2::6]).max(initial=0.0)
         rows.append(state.load | {
             "chord_angle_deg": state.measures["chord_angle_deg"], "sideways_mm": tail[2],

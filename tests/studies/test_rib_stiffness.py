@@ -114,7 +114,7 @@ def test_two_layers_leave_the_plane_at_large_rotations_and_three_do_not():
         bent = Rib(replace(SQUARE, layers=layers), RESIN, comm=MPI.COMM_SELF)
         angle = bent.bend(torque=torque)[-1].measures["chord_angle_deg"]
         assert angle == pytest.approx(45.0, abs=0.1)
-        tail = bent.tail.values()
+        tail = bent.ribs.end_values("tail", 0)
         if layers == 3:
             assert np.abs(tail[list(OUT_OF_PLANE)]).max() < 1e-9
         else:
