@@ -19,10 +19,9 @@ __all__ = ["report"]
 def report(study: TableStudy) -> Iterator[Table | str]:
     """Yield the rows, the level means and the misfits as tables, then sentences."""
     printed = study.printed
-    names = [", ".join(series) if series.reading else series.fidelity for series in study.parts]
     yield text_table(
         f"{printed.heading}, {printed.title}: degrees, and against the printed ones",
-        ["row", *printed.factors, "printed", *names],
+        ["row", *printed.factors, "printed", *map(str, study.parts)],
         [[str(case["row"]), *(case[factor] for factor in printed.factors),
           _or(case["printed_deg"], "{:.2f}", "not tested"),
           *(_angle(part.iloc[i], printed.angle) for part in study.parts.values())]
