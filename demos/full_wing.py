@@ -32,7 +32,8 @@ from mpi4py import MPI
 from morphing_wing import Progress
 from morphing_wing.fields import save_path
 from morphing_wing.figure7 import figure7
-from morphing_wing.figure7_report import console, report
+from morphing_wing.figure7_report import report
+from morphing_wing.terminal_tables import console
 
 arguments = argparse.ArgumentParser(description="the whole wing, by pressure and by cables")
 arguments.add_argument("--fidelity", default="draft", choices=["draft", "standard"])

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
 
 from morphing_wing.figure7_facts import PANELS, words
+from morphing_wing.terminal_tables import text_table
 
-__all__ = ["console", "report"]
-
-
-def console() -> Console:
-    """Return a console on standard output, 132 columns wide where that has no width of its own."""
-    return Console(width=shutil.get_terminal_size((132, 40)).columns)
+__all__ = ["report"]
 
 
 def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
@@ -27,7 +21,7 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
     facts
         See `figure7_facts.facts`.
     """
-    yield _table(
+    yield text_table(
         "Figure 7: where the paper's angle is reached, and the coupling at the last load",
         ["curve", "by the end face", "the same in space", "by the deflection line", "coupling",
          "resin yields at", "skin touches from", "unstable from"],
@@ -35,13 +29,13 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
           _load(f, f["resin_yields_at"]), _touching(f), _load(f, f["unstable_from"])]
          for f in facts["curves"]])
     if facts["skin"]:
-        yield _table(
+        yield text_table(
             "What the skin takes away, at the last load",
             ["curve", "load", "with skin, deg", "without, deg", "without / with"],
             [[_name(f), _load(f, f["load"]), f"{f['with_deg']:.2f}", f"{f['without_deg']:.2f}",
               f"{f['without_over_with']:.2f}"] for f in facts["skin"]])
     if facts["fidelities"]:
-        yield _table(
+        yield text_table(
             "Fidelities: largest relative difference of the angle",
             ["curve", "against", "difference", "at"],
             [[_name(f), f["against"], f"{100 * f['largest_difference']:.1f} %",
@@ -51,15 +45,6 @@ def report(facts: dict[str, list[dict[str, Any]]]) -> Iterator[Table]:
 def _touching(fact: dict[str, Any]) -> str:
     found = fact["touching_from"]
     return _load(fact, fact["contact_from"] if found is None else found)
-
-
-def _table(title: str, headings: list[str], rows: list[list[str]]) -> Table:
-    table = Table(title=title, title_justify="left")
-    for heading in headings:
-        table.add_column(heading)
-    for row in rows:
-        table.add_row(*row)
-    return table
 
 
 def _name(fact: dict[str, Any]) -> str:

@@ -1,167 +1,118 @@
-"""``morphing-wing paper fig7``: a figure of the paper, computed, drawn and told in a table."""
+"""``morphing-wing paper``: a table or a figure of the paper, computed, drawn and told in tables."""
 
 from __future__ import annotations
 
-import gc
 import pathlib
-import re
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
-import numpy as np
 import typer
 from mpi4py import MPI
 
 from morphing_wing.errors import InputError, require
-from morphing_wing.geometry.wing import WingGeometry
+from morphing_wing.figure7_command import run_figure7
 from morphing_wing.ladder import LADDERS
 from morphing_wing.out_folder import check_folder
 from morphing_wing.root import on_root
-from morphing_wing.together import DONE, STOPPED
-
-if TYPE_CHECKING:
-    from morphing_wing.figure7_result import Curve, Figure7
-    from morphing_wing.path import Path
-    from morphing_wing.progress import Progress
+from morphing_wing.tables_command import run_figure5, run_table
 
 __all__ = ["paper"]
 
-COMING = ("table2", "table3", "fig5", "fig6")
-PANELS = {"pressure": ("pressure",), "cables": ("cables",), "both": ("pressure", "cables")}
-SKINS = {"on": (True,), "off": (False,), "both": (True, False)}
+SCENES = {"table2": ("spar",), "table3": ("rib",), "fig5": ("spar", "rib"), "fig7": ("wing",)}
+COMING = ("fig6",)
+POINTS = {"fig5": 6, "fig7": 8}
+OF_ALL = ("name", "fidelity", "out")
 
 
 def paper(
-    name: Annotated[str, typer.Argument(metavar="fig7", help="Figure 7: angle against load.")],
+    context: typer.Context,
+    name: Annotated[
+        str, typer.Argument(metavar="table2|table3|fig5|fig7", help="Which one of the paper.")
+    ],
     fidelity: Annotated[
         list[str] | None,
-        typer.Option(metavar="F", help="draft or standard; once each for several. [draft]"),
+        typer.Option(metavar="F", help="A rung of the ladder; once each for several. The formula "
+                     "and the cheapest finite elements if not given, in fig7 draft."),
     ] = None,
-    points: Annotated[int, typer.Option(metavar="N", help="Points a curve beside zero.")] = 8,
+    points: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Points a curve beside zero: fig5 6, fig7 8 if not given."),
+    ] = None,
     panel: Annotated[
-        str, typer.Option(metavar="P", help="pressure, cables or both: which half of the figure.")
+        str,
+        typer.Option(metavar="P", help="fig7: pressure, cables or both: which half of the figure."),
     ] = "both",
     both_directions: Annotated[
-        bool, typer.Option("--both-directions/--one-direction", help="Up as well, or only down.")
+        bool, typer.Option("--both-directions/--one-direction",
+                           help="fig7: up as well, or only down.")
     ] = False,
-    skin: Annotated[str, typer.Option(metavar="S", help="on, off or both.")] = "both",
+    skin: Annotated[str, typer.Option(metavar="S", help="fig7: on, off or both.")] = "both",
     skin_root: Annotated[
-        str, typer.Option(metavar="R", help="The skin's edge at the root: clamped or free.")
+        str, typer.Option(metavar="R", help="fig7: the skin's edge at the root: clamped or free.")
     ] = "clamped",
     contact: Annotated[
-        bool, typer.Option("--contact/--no-contact", help="Contact forces in the pocket, or none.")
+        bool, typer.Option("--contact/--no-contact",
+                           help="fig7: contact forces in the pocket, or none.")
     ] = True,
     reachable: Annotated[
-        bool, typer.Option("--map", help="Pressure and cables together as well: costs much.")
+        bool, typer.Option("--map", help="fig7: pressure and cables together too: costs much.")
     ] = False,
     map_points: Annotated[
-        str, typer.Option(metavar="NxM", help="Pressures times tensions of the map.")
+        str, typer.Option(metavar="NxM", help="fig7: pressures times tensions of the map.")
     ] = "4x4",
     out: Annotated[
         pathlib.Path | None,
-        typer.Option(metavar="DIR", help="Folder of the results; output/fig7 if not given."),
+        typer.Option(metavar="DIR", help="Folder of the results; output/NAME if not given."),
     ] = None,
 ) -> int:
-    """Compute a figure of the paper and set it beside what the paper's text states.
+    """Compute a table or figure of the paper beside what the paper prints or states.
 
-    Pressures go to 40 kPa, tensions to 0.5 N in each cable. What is done is written after each
-    curve: fig7.png, table.csv, summary.json, fields/.
+    table2: nine spars at 20 kPa.
+
+    table3: nine ribs under one end moment, which is fitted.
+
+    fig5: formulas against finite elements, spar and rib alone.
+
+    fig7: the wing, to 40 kPa and 0.5 N in each cable.
+
+    What is done is written as it goes: table.csv, summary.json, NAME.png; levels.csv of a table,
+    fields/ of fig7.
     """
-    folder = pathlib.Path("output") / "fig7" if out is None else out
-    fidelities = tuple(dict.fromkeys(fidelity or ["draft"]))
-    comm = MPI.COMM_WORLD
-    check(name, fidelities, points, skin, panel)
-    geometry = WingGeometry.prototype(skin_root=skin_root)
-    grid = grid_of(map_points) if reachable else None
-    on_root(comm, lambda: check_folder(folder))
-
-    from morphing_wing.figure7 import figure7
-
-    study = figure7(
-        fidelities, *loads(points + 1, points + 1),
-        SKINS[skin], ("down", "up") if both_directions else ("down",), geometry, PANELS[panel],
-        comm=comm, begin=announced, done=lambda *found: saved(folder, *found), contact=contact,
-    )
-    say(study)
-    reached = grid is None or mapped(grid, fidelities, skin, geometry, folder, contact)
-    typer.echo(f"results are in {folder}")
-    return DONE if study.converged and reached else STOPPED
-
-
-def check(
-    name: str, fidelities: tuple[str, ...], points: int, skin: str, panel: str
-) -> None:
-    """Refuse what cannot be computed, before DOLFINx is loaded."""
     if name in COMING:
-        raise InputError(f"{name}: is not there yet, must be fig7")
-    require(name == "fig7", "figure", name, "", "fig7")
-    for each in fidelities:
-        require(each in LADDERS["wing"], "--fidelity", each, "",
-                f"one of {', '.join(LADDERS['wing'])}")
+        raise InputError(f"{name}: is not there yet, must be one of {', '.join(SCENES)}")
+    require(name in SCENES, "table or figure", name, "", f"one of {', '.join(SCENES)}")
+    check_options(context, name)
+    fidelities = tuple(dict.fromkeys(fidelity or ()))
+    check_fidelities(name, fidelities)
+    points = POINTS.get(name, 1) if points is None else points
     require(points >= 1, "--points", points, "", "at least 1")
-    require(skin in SKINS, "--skin", skin, "", "on, off or both")
-    require(panel in PANELS, "--panel", panel, "", "pressure, cables or both")
+    folder = pathlib.Path("output") / name if out is None else out
+    if name == "fig7":
+        return run_figure7(fidelities or ("draft",), points, panel, both_directions, skin,
+                           skin_root, contact, reachable, map_points, folder)
+    on_root(MPI.COMM_WORLD, lambda: check_folder(folder))
+    if name == "fig5":
+        return run_figure5(fidelities, points, folder)
+    return run_table(name, fidelities, folder)
 
 
-def grid_of(text: str) -> tuple[int, int]:
-    """Return the map's numbers of pressures and tensions, each with zero among them."""
-    found = re.fullmatch(r"(\d{1,3})x(\d{1,3})", text)
-    sizes = tuple(map(int, found.groups())) if found else (0, 0)
-    require(min(sizes) >= 2, "--map-points", text, "", "two numbers of at least 2, such as 4x4")
-    return sizes
+def check_options(context: typer.Context, name: str) -> None:
+    """Refuse options that were given and belong to another figure."""
+    for option in context.command.params:
+        belongs = SCENES if option.name in OF_ALL else POINTS if option.name == "points" else (
+            "fig7",)
+        source = context.get_parameter_source(option.name)
+        if name not in belongs and source is not None and source.name == "COMMANDLINE":
+            raise InputError(f"{option.opts[0]}: must be left out of {name}, it is an option of "
+                             f"{' and '.join(belongs)}")
 
 
-def loads(n_pressures: int, n_tensions: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return so many pressures and tensions, from zero to the largest of Figure 7."""
-    from morphing_wing.figure7 import PRESSURES, TENSIONS
-
-    return (np.linspace(0.0, PRESSURES[-1], n_pressures),
-            np.linspace(0.0, TENSIONS[-1], n_tensions))
-
-
-def announced(curve: Curve, wing: Any) -> Progress:
-    """Print which curve begins, and return what prints its steps."""
-    from morphing_wing.progress import Progress
-
-    typer.echo(f"\n{curve}: {wing.dofs:,} unknowns on {wing.comm.size} rank(s)")
-    return Progress(wing.comm)
-
-
-def saved(folder: pathlib.Path, study: Figure7, curve: Curve, path: Path) -> None:
-    """Write the study so far and the fields of its last curve: a killed run has left them."""
-    from morphing_wing.fields import save_path
-
-    study.save(folder)
-    if len(path):
-        save_path(path, folder / "fields" / curve.slug)
-
-
-def say(study: Figure7) -> None:
-    """Print the facts as tables; on rank 0, as everything that a command prints."""
-    from morphing_wing.figure7_report import console, report
-
-    if study.comm.rank == 0:
-        for table in report(study.facts()):
-            console().print("", table)
-
-
-def mapped(
-    grid: tuple[int, int], fidelities: tuple[str, ...], skin: str, geometry: WingGeometry,
-    folder: pathlib.Path, contact: bool,
-) -> bool:
-    """Run and save the map of each wing asked for; return whether all its points were reached."""
-    from morphing_wing.figure7_result import Curve
-    from morphing_wing.reach import reach
-
-    whole = True
-    for fidelity in fidelities:
-        for with_skin in SKINS[skin]:
-            curve = Curve("map", with_skin, "down", fidelity)
-            found = reach(
-                *loads(*grid), fidelity, curve.shape(geometry),
-                begin=lambda wing, c=curve: announced(c, wing), contact=contact,
-            )
-            found.save(folder / curve.slug)
-            whole = whole and found.path.converged
-            del found
-            gc.collect()  # at one point on all ranks, as in `figure7`
-    return whole
+def check_fidelities(name: str, fidelities: tuple[str, ...]) -> None:
+    """Refuse rungs that no ladder has, and those of which a half of the figure has none."""
+    ladders = [LADDERS[scene] for scene in SCENES[name]]
+    rungs = tuple(dict.fromkeys(rung for ladder in ladders for rung in ladder))
+    for each in fidelities:
+        require(each in rungs, "--fidelity", each, "", f"one of {', '.join(rungs)}")
+    for scene, ladder in zip(SCENES[name], ladders, strict=True):
+        if fidelities and not set(fidelities) & set(ladder):
+            raise InputError(f"--fidelity = {', '.join(fidelities)}: must have one of "
+                             f"{', '.join(ladder)} beside it, the {scene} has no such rung")

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from morphing_wing.path import State
 
-__all__ = ["Progress"]
+__all__ = ["Progress", "announced"]
 
 # Column of a load -> (factor to the printed unit, heading). Only those that a scene has appear.
 _LOADS = {
@@ -86,6 +86,11 @@ class Progress:
         self._print(f"{state} after {self.steps} steps, {seconds:.1f} s: {reason}",
                     "green" if converged else "red")
 
+    def say(self, text: str) -> None:
+        """Print a text as it is."""
+        if self._console is not None:
+            self._print(text, "")
+
     @staticmethod
     def _style(state: State) -> str:
         if state.negative_pivots or state.contact:
@@ -95,6 +100,13 @@ class Progress:
     def _print(self, text: str, style: str) -> None:
         self._console.print(text, style=style or None, markup=False, highlight=False)
         self._console.file.flush()
+
+
+def announced(curve: object, scene: Any) -> Progress:
+    """Print which of a study's curves begins, and return what prints its steps."""
+    progress = Progress(scene.comm)
+    progress.say(f"\n{curve}: {scene.dofs:,} unknowns on {scene.comm.size} rank(s)")
+    return progress
 
 
 def _console(file: TextIO | None) -> Console:

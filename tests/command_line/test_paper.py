@@ -1,4 +1,4 @@
-"""The contract of `morphing-wing paper fig7`; the study itself is a stand-in."""
+"""The contract of `morphing-wing paper`; the study of Figure 7 is a stand-in."""
 
 import json
 from types import SimpleNamespace
@@ -11,6 +11,7 @@ from morphing_wing import figure7_result
 from morphing_wing import reach as map_module
 from morphing_wing.cli import main
 from morphing_wing.figure7_result import Curve, Figure7
+from morphing_wing.ladder import LADDERS
 from morphing_wing.path import Path, State
 from morphing_wing.record import SceneRecord
 
@@ -99,13 +100,22 @@ def test_the_map_is_run_where_it_is_asked_for(asked, tmp_path):
     assert (tmp_path / "here" / "map_with_skin_down_draft" / "map.png").exists()
 
 
-@pytest.mark.parametrize("name", ["table2", "table3", "fig5", "fig6"])
-def test_what_is_to_come_says_so(name, asked, capfd):
-    assert refused(capfd, name) == f"morphing-wing: {name}: is not there yet, must be fig7\n"
+def test_what_is_to_come_says_so(asked, capfd):
+    assert refused(capfd, "fig6") == (
+        "morphing-wing: fig6: is not there yet, must be one of table2, table3, fig5, fig7\n")
 
 
 @pytest.mark.parametrize("arguments, sentence", [
-    (["fig8"], "figure = 'fig8': must be fig7"),
+    (["fig8"], "table or figure = 'fig8': must be one of table2, table3, fig5, fig7"),
+    (["table2", "--skin", "on"], "--skin: must be left out of table2, it is an option of fig7"),
+    (["fig5", "--one-direction"], "--both-directions: must be left out of fig5, it is an option"),
+    (["table3", "--map"], "--map: must be left out of table3, it is an option of fig7"),
+    (["table3", "--points", "4"], "--points: must be left out of table3, it is an option of fig5 "
+                                  "and fig7"),
+    (["table3", "--fidelity", "cheap"], "--fidelity = 'cheap': must be one of instant, draft"),
+    (["table2", "--fidelity", "instant", "--fidelity", "best"], "--fidelity = 'best': must be one"),
+    (["fig5", "--fidelity", "best"], "--fidelity = 'best': must be one of instant, cell, draft"),
+    (["fig5", "--points", "0"], "--points = 0: must be at least 1"),
     (["fig7", "--fidelity", "best"], "--fidelity = 'best': must be one of draft, standard"),
     (["fig7", "--points", "0"], "--points = 0: must be at least 1"),
     (["fig7", "--points", "many"], "Invalid value for '--points'"),
@@ -121,10 +131,32 @@ def test_bad_input_is_one_sentence_and_leaves_nothing(arguments, sentence, asked
     assert asked.calls == [] and list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("name, said", [
+    ("table2", "none: nothing is fitted"), ("table3", "32.33 N mm, fitted"),
+    ("fig5", "26.13 deg at 30 kPa")])
+def test_tables_and_figure_5_by_the_formulas(name, said, asked, tmp_path, capsys):
+    assert main(["paper", name, "--fidelity", "instant"]) == 0
+    folder = tmp_path / "output" / name
+    assert {file.name for file in folder.iterdir()} == {
+        f"{name}.png", "table.csv", "summary.json", *([] if name == "fig5" else ["levels.csv"])}
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["study"] == name and summary["fidelity"] == "instant"
+    printed = capsys.readouterr().out
+    assert said in printed and f"results are in output/{name}" in printed
+    assert name != "table3" or "Misprint: Table 3 has 24.354" in printed
+
+
+def test_a_rung_that_only_one_half_of_figure_5_has_wants_another_beside_it(asked, monkeypatch,
+                                                                           capfd):
+    monkeypatch.setitem(LADDERS, "rib", ("instant", "draft"))
+    assert "the rib has no such rung" in refused(capfd, "fig5", "--fidelity", "cell")
+
+
 def test_a_file_in_the_place_of_the_folder_is_refused_before_anything_is_run(asked, tmp_path,
                                                                              capfd):
     (tmp_path / "taken").write_text("precious")
-    assert "must be a folder" in refused(capfd, "fig7", "--out", "taken")
+    for name in ("fig5", "fig7", "table2"):
+        assert "must be a folder" in refused(capfd, name, "--out", "taken")
     assert asked.calls == []
 
 
