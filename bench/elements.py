@@ -2,9 +2,10 @@
 
 Four chambers of Section 3.3, upper row at 20 kPa in one step, half model, on three sequences: the
 plain mesh and its uniform refinements, and the meshes graded at the chambers' corners. Beside the
-elements that the package offers stand the two plain displacement elements that it does not, to show
-what they would do. Each case runs in a process of its own, on one core. The error is against
-the angle that the finest case of the default element has, so that its own last row says nothing.
+elements that the package offers stand some that it does not, to show what they would do: two plain
+displacement elements, and (DOLFINx 0.5 alone) serendipity displacements, S2. Each case runs in a
+process of its own, on one core. The error is against the angle that the finest case of the default
+element has, so that its own last row says nothing.
 
     python bench/elements.py --out elements.csv --picture elements.png
 """
@@ -28,6 +29,8 @@ CASES = {
     "Q1 reduced": ("plain", "plain / 2", "plain / 4", "graded 1", "graded 2", "graded 3"),
     "Q2 displacement": ("plain", "plain / 2", "graded 1", "graded 2"),
     "Q1 displacement": ("plain", "plain / 2", "plain / 4", "graded 1", "graded 2"),
+    "S2/P1disc": ("plain", "plain / 2", "graded 1", "graded 2"),
+    "S2/Q1": ("plain", "plain / 2", "graded 1", "graded 2"),
 }
 REFERENCE = ("Q2/P1disc", "graded 3")
 
@@ -63,12 +66,17 @@ def measured(name, mesh):
     """Run one case and say its figures."""
     from mpi4py import MPI
 
+    from morphing_wing import compat
     from morphing_wing.elements import ELEMENTS, Element
     from morphing_wing.geometry.spar import SparGeometry, SparMeshing
     from morphing_wing.spar import Spar
 
     ELEMENTS["Q2 displacement"] = Element("Q2 displacement", 2, None, 5, 5)
     ELEMENTS["Q1 displacement"] = Element("Q1 displacement", 1, None, 3, 3)
+    ELEMENTS["S2/P1disc"] = Element("S2/P1disc", 2, ("DPC", 1), 5, 5)
+    ELEMENTS["S2/Q1"] = Element("S2/Q1", 2, ("Lagrange", 1), 5, 5)
+    if name.startswith("S2"):
+        compat._with_displacement = with_serendipity
     kind, level = (*mesh.replace("/", " ").split(), "1")[:2]
     meshing = (SparMeshing.plain().split(int(level)) if kind == "plain"
                else SparMeshing.graded(int(level)))
@@ -85,6 +93,18 @@ def measured(name, mesh):
         else float("nan"), "steps": len(path),
         "iterations": sum(state.newton_iterations for state in path),
         "seconds": time.perf_counter() - clock, "peak_MB": peak_MB(MPI.COMM_SELF)})
+
+
+def with_serendipity(mesh, degree, other):
+    """Return the mixed space of a serendipity displacement (20 nodes) and another element.
+
+    Its unknowns on edges are moments; where those of a face are zero, so is the displacement.
+    """
+    import ufl
+    from dolfinx import fem
+
+    u = ufl.VectorElement("S", mesh.ufl_cell(), degree)
+    return fem.FunctionSpace(mesh, ufl.MixedElement([u, other]))
 
 
 def shown(table):

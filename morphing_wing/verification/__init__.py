@@ -27,7 +27,7 @@ __all__ = ["PROBLEMS", "Check", "NoEquilibriumError", "Problem"]
 
 _ALL = (
     Problem("patch", "patch test of every element", "homogeneous deformation", patch, quick=True),
-    Problem("homogeneous", "Yeoh's rubber in tension, compression and shear", "closed form",
+    Problem("homogeneous", "rubber and resin in tension, compression and shear", "closed form",
             homogeneous, quick=True),
     Problem("elastica", "cantilever under a dead force", "Bisshopp and Drucker 1945", elastica,
             quick=True),
@@ -35,7 +35,7 @@ _ALL = (
             balance, quick=True),
     Problem("land", "beam of cardiac muscle under follower pressure", "Land et al. 2015, problem 1",
             land, quick=True),
-    Problem("rotation", "a whole spar turned as it is", "frame invariance", rotation),
+    Problem("rotation", "a whole spar and resin, turned as they are", "frame invariance", rotation),
     Problem("convergence", "order of convergence to a manufactured solution", "theory",
             convergence),
     Problem("walls", "thick sphere and cylinder under pressure, limit point", "closed form", walls),

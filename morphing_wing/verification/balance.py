@@ -13,11 +13,14 @@ from morphing_wing.blocks import Block
 from morphing_wing.elastomer import Elastomer
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
+from morphing_wing.materials import RESIN
 from morphing_wing.rib import Rib
 from morphing_wing.spar import Spar
 from morphing_wing.system import EquilibriumSystem
 
 from .check import Check
+from .equilibrium import TETRAHEDRA, Equilibrium
+from .meshes import tetrahedra
 from .thick_walls import thick_sphere
 
 __all__ = ["balance", "rotation"]
@@ -50,7 +53,10 @@ def balance(comm: MPI.Comm) -> Iterator[Check]:
 
 
 def rotation(comm: MPI.Comm) -> Iterator[Check]:
-    """Yield what turning a whole spar, pressure in its chambers included, adds to its forces."""
+    """Yield what turning adds to the forces of a whole spar, and of resin without load.
+
+    Of the spar with the pressure in its chambers.
+    """
     for element in ("Q1/P0", "Q2/P1disc"):
         for pressure in (0.0, 0.04):
             body = _inflated(element, pressure, comm)
@@ -63,6 +69,12 @@ def rotation(comm: MPI.Comm) -> Iterator[Check]:
             # Beside the supports' forces all others are zero: those of the stress, or of none.
             yield Check(f"{where}: norm of nodal forces", _forces(free), forces, "N", 1e-9)
             yield Check(f"{where}: energy", sum(free.energies()), energy, "N mm", 1e-9)
+    resin = Equilibrium(comm, tetrahedra(), RESIN, TETRAHEDRA)
+    resin.displacement_function().interpolate(lambda x: TURN.apply(x.T).T - x)
+    where = f"{TETRAHEDRA}, turned by {np.degrees(ANGLE):.0f} deg"
+    yield Check(f"{where}: norm of nodal forces", _forces(resin.system), 0.0, "N", 1e-10)
+    yield Check(f"{where}: energy over E and volume", resin.system.energies()[0] / RESIN.E, 0.0,
+                "", 1e-20)
 
 
 def _inflated(element: str, pressure: float, comm: MPI.Comm) -> Elastomer:

@@ -1,4 +1,4 @@
-"""Equilibrium of one elastomer body under held faces and one load."""
+"""Equilibrium of one body under held faces and one load."""
 
 from __future__ import annotations
 
@@ -15,12 +15,17 @@ from morphing_wing.elastomer import Elastomer
 from morphing_wing.elements import ELEMENTS
 from morphing_wing.forms.kinematics import cofactor, deformation_gradient
 from morphing_wing.geometry.hexmesh import HexMesh
+from morphing_wing.geometry.tetmesh import TetMesh
 from morphing_wing.led import LedLoad
-from morphing_wing.materials import Yeoh
+from morphing_wing.materials import Elastic, Yeoh
 from morphing_wing.newton import Newton, NewtonResult
+from morphing_wing.resin_body import ResinBody
 from morphing_wing.system import EquilibriumSystem
 
-__all__ = ["Equilibrium", "NoEquilibriumError"]
+__all__ = ["TETRAHEDRA", "Equilibrium", "NoEquilibriumError"]
+
+TETRAHEDRA = "P2 tetrahedra"
+"""The resin's element; all others are the elastomer's."""
 
 
 class NoEquilibriumError(RuntimeError):
@@ -35,14 +40,14 @@ class Equilibrium:
     comm, grid, material
         Where, the body's mesh, of what.
     element
-        Name of the finite element.
+        Name of the finite element, `TETRAHEDRA` of resin on a mesh of them.
     work
         From the body and a load to the load's work, a UFL functional, linear in the load.
     led
         Name of the face at which the load acts if not it is given but the displacement on which
         it works; None: the load is given.
     body
-        Class of the body.
+        Class of the elastomer's body.
     options
         Of the body: ``clamped``, ``symmetry``.
     """
@@ -50,15 +55,18 @@ class Equilibrium:
     def __init__(
         self,
         comm: MPI.Comm,
-        grid: HexMesh,
-        material: Yeoh,
+        grid: HexMesh | TetMesh,
+        material: Yeoh | Elastic,
         element: str,
-        work: Callable[[Elastomer, Any], Any] | None = None,
+        work: Callable[[Any, Any], Any] | None = None,
         led: str | None = None,
         body: type[Elastomer] = Elastomer,
         **options: Any,
     ) -> None:
-        self.body = body(comm, grid, material, ELEMENTS[element], thin=("body",), **options)
+        if element == TETRAHEDRA:
+            self.body: Any = _Resin(comm, grid, material, **options)
+        else:
+            self.body = body(comm, grid, material, ELEMENTS[element], thin=("body",), **options)
         self.load: Any = compat.constant(self.body.mesh, 0.0)
         self._led = None if led is None else LedLoad(self.body.mesh, self.body.faces.cells(led))
         energies, blocks = [self.body.energy], [self.body.block]
@@ -145,3 +153,23 @@ class Equilibrium:
         here = np.flatnonzero(np.linalg.norm(x - point, axis=1) < 1e-6)
         found = self.body.comm.allgather(u.x.array.reshape(-1, 3)[here])
         return np.concatenate(found)[0]
+
+
+class _Resin(ResinBody):
+    """A resin body by the names that an elastomer has for the same."""
+
+    @property
+    def u(self) -> Any:
+        return self.function
+
+    def displacement(self) -> fem.Function:
+        return self.function
+
+    def displacement_part(self, function: Any) -> Any:
+        return function
+
+    def n_pressures(self) -> int:
+        return 0
+
+    def volume_measure(self, degree: int) -> Any:
+        return ufl.dx(domain=self.mesh, metadata={"quadrature_degree": degree})

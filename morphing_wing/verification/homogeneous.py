@@ -1,4 +1,4 @@
-"""Homogeneous deformations: the patch test, and Yeoh's rubber in tension and shear."""
+"""Homogeneous deformations: the patch test, rubber and resin in tension and shear."""
 
 from __future__ import annotations
 
@@ -12,31 +12,40 @@ from scipy.optimize import brentq
 
 from morphing_wing.elements import ELEMENTS
 from morphing_wing.geometry.hexmesh import HexMesh
-from morphing_wing.materials import DRAGON_SKIN_30, Yeoh
+from morphing_wing.geometry.tetmesh import TetMesh
+from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Elastic, Yeoh
 
 from .check import Check
-from .equilibrium import Equilibrium
-from .meshes import SIDES, cube
+from .equilibrium import TETRAHEDRA, Equilibrium
+from .meshes import SIDES, cube, tetrahedra
 
-__all__ = ["computed_stress", "exact_stress", "homogeneous", "patch", "patch_error",
-           "principal_stress", "shear_stress"]
+__all__ = ["computed_stress", "exact_resin_stress", "exact_stress", "homogeneous", "material_of",
+           "patch", "patch_error", "principal_stress", "shear_stress"]
 
 MILD = Yeoh(DRAGON_SKIN_30.coefficients, bulk=2.0)
 OBLIQUE = np.array([[1.0, 0.3, -0.2], [0.0, 1.1, 0.25], [0.0, 0.0, 0.9]])
 
 
-def grid_of(element: str) -> HexMesh:
-    """Return a cube in the worst hexahedra on which an element passes the patch test.
+def material_of(element: str) -> Yeoh | Elastic:
+    """Return what a body of an element is of: resin or mild rubber."""
+    return RESIN if element == TETRAHEDRA else MILD
+
+
+def grid_of(element: str) -> HexMesh | TetMesh:
+    """Return a cube in the worst cells on which an element passes the patch test.
 
     One volumetric point a cell cannot integrate the volume's gradient of a warped hexahedron.
+    Second-order tetrahedra may be curved.
     """
+    if element == TETRAHEDRA:
+        return tetrahedra()
     return cube(warp=0.0, affine=OBLIQUE) if element == "Q1 reduced" else cube()
 
 
-def patch_error(element: str, grid: HexMesh, comm: MPI.Comm) -> float:
+def patch_error(element: str, grid: HexMesh | TetMesh, comm: MPI.Comm) -> float:
     """Return the largest deviation in mm from the homogeneous deformation of the boundary."""
     H = np.array([[0.25, 0.1, 0.0], [-0.1, -0.1, 0.15], [0.05, 0.0, 0.1]])
-    problem = Equilibrium(comm, grid, MILD, element, clamped=SIDES)
+    problem = Equilibrium(comm, grid, material_of(element), element, clamped=SIDES)
     problem.displacement_function().interpolate(lambda x: H @ x)
     values = problem.body.function.x.array
     free = np.setdiff1d(np.arange(len(values)), problem.body.block.constrained)
@@ -52,9 +61,9 @@ def patch_error(element: str, grid: HexMesh, comm: MPI.Comm) -> float:
 
 def patch(comm: MPI.Comm) -> Iterator[Check]:
     """Yield the patch test of every element."""
-    for element in ELEMENTS:
+    for element in (*ELEMENTS, TETRAHEDRA):
         yield Check(f"{element}: deviation", patch_error(element, grid_of(element), comm), 0.0,
-                    "mm", 1e-9)
+                    "mm", 1e-12 if element == TETRAHEDRA else 1e-9)
 
 
 def principal_stress(material: Yeoh, stretches: Sequence[float], k: int) -> float:
@@ -85,13 +94,21 @@ def exact_stress(mode: str, material: Yeoh, lam: float) -> float:
     return principal_stress(material, stretches(lam, t), 2)
 
 
+def exact_resin_stress(mode: str, material: Elastic, lam: float) -> float:
+    """Return the same of St Venant and Kirchhoff's law: Hooke's stress of Green's strain."""
+    E, nu = material.E, material.nu
+    modulus = {"uniaxial": E, "equibiaxial": E / (1.0 - nu), "planar": E / (1.0 - nu**2)}[mode]
+    return lam * modulus * (lam**2 - 1.0) / 2.0
+
+
 def _wave(x: np.ndarray) -> np.ndarray:
     """Return something that is zero on the faces of the unit cube only."""
     return np.prod(np.sin(np.pi * x), axis=0) * np.sin(3.0 * x[[1, 2, 0]])
 
 
 def computed_stress(
-    mode: str, material: Yeoh, element: str, lam: float, grid: HexMesh, comm: MPI.Comm
+    mode: str, material: Yeoh | Elastic, element: str, lam: float, grid: HexMesh | TetMesh,
+    comm: MPI.Comm,
 ) -> float:
     """Return the nominal stress along z in MPa: inner forces' work on a stretch along z."""
     stretches, moved, guess = MODES[mode]
@@ -113,7 +130,7 @@ def computed_stress(
 
 
 def shear_stress(
-    material: Yeoh, element: str, shear: float, grid: HexMesh, comm: MPI.Comm
+    material: Yeoh | Elastic, element: str, shear: float, grid: HexMesh | TetMesh, comm: MPI.Comm
 ) -> float:
     """Return the shear stress in MPa of the unit cube sheared by its boundary: x moves with y."""
     problem = Equilibrium(comm, grid, material, element, clamped=SIDES)
@@ -147,3 +164,13 @@ def homogeneous(comm: MPI.Comm) -> Iterator[Check]:
         yield Check(f"incompressible, uniaxial, stretch {lam:g}: nominal stress",
                     computed_stress("uniaxial", incompressible, "Q2/P1disc", lam, cube(), comm),
                     2.0 * (lam - lam**-2) * slope, "MPa", 1e-6)
+    for mode in MODES:
+        for lam in (0.9, 1.1):
+            yield Check(f"{TETRAHEDRA}, resin, {mode}, stretch {lam:g}: nominal stress",
+                        computed_stress(mode, RESIN, TETRAHEDRA, lam, tetrahedra(), comm),
+                        exact_resin_stress(mode, RESIN, lam), "MPa", 1e-8)
+    # F S with F = I + shear e_x e_y, of which E_xy = shear/2 and E_yy = shear^2/2.
+    shear, mu = 0.3, RESIN.shear_modulus
+    yield Check(f"{TETRAHEDRA}, resin, simple shear by {shear:g}: shear stress",
+                shear_stress(RESIN, TETRAHEDRA, shear, tetrahedra(), comm),
+                mu * shear + (RESIN.lame_modulus / 2.0 + mu) * shear**3, "MPa", 1e-8)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import permutations
 
 import numpy as np
 
 from morphing_wing.geometry.hexmesh import HexMesh, geometric, swept_blocks, uniform
+from morphing_wing.geometry.tetmesh import EDGES, TetMesh, with_faces
 
-__all__ = ["SIDES", "cook", "cube", "cylinder", "disc", "octant", "prism"]
+__all__ = ["SIDES", "cook", "cube", "cylinder", "disc", "distorted", "octant", "prism",
+           "tetrahedra", "tube"]
 
 SIDES = tuple(f"{axis}{sign}" for axis in "xyz" for sign in "-+")
 """Names of the outer faces of what is made from a cube."""
@@ -23,13 +26,49 @@ def cube(n: int = 3, warp: float = 0.08, affine: np.ndarray | None = None) -> He
     """Return the unit cube in n^3 hexahedra, distorted inside by ``warp``, then by a matrix."""
 
     def mapping(x: np.ndarray) -> np.ndarray:
-        inside = np.prod(4.0 * x * (1.0 - x), axis=1)[:, None]
-        distorted = x + warp * inside * np.stack([
-            np.cos(5 * x[:, 1] + x[:, 2]), np.sin(4 * x[:, 2] - x[:, 0]),
-            np.cos(6 * x[:, 0] + 2 * x[:, 1])], axis=1)
-        return distorted if affine is None else distorted @ affine.T
+        moved = distorted(x, warp)
+        return moved if affine is None else moved @ affine.T
 
     return swept_blocks((uniform(n),) * 3, np.ones((n, n, n), int), {1: "body"}, mapping, _sides)
+
+
+def distorted(x: np.ndarray, warp: float = 0.08) -> np.ndarray:
+    """Return points of the unit cube moved by ``warp`` mm at most, those of its faces not at all.
+
+    Edges between them are curved where their middles are moved too.
+    """
+    inside = np.prod(4.0 * x * (1.0 - x), axis=1)[:, None]
+    return x + warp * inside * np.stack([
+        np.cos(5 * x[:, 1] + x[:, 2]), np.sin(4 * x[:, 2] - x[:, 0]),
+        np.cos(6 * x[:, 0] + 2 * x[:, 1])], axis=1)
+
+
+def tetrahedra(n: int = 2, mapping: Callable[[np.ndarray], np.ndarray] = distorted) -> TetMesh:
+    """Return the unit cube in n^3 cubes of six tetrahedra, all their nodes then mapped.
+
+    Each has the cube's diagonal and goes from one of its ends to the other along three edges
+    (Kuhn, IBM J. Res. Dev. 4 (1960) 518-524).
+    """
+    # In half edges of a cube, so that the middles of edges have whole numbers too.
+    ways = np.array([np.cumsum(np.vstack([np.zeros(3, int), 2 * np.eye(3, dtype=int)[list(order)]]),
+                               axis=0) for order in permutations(range(3))])
+    mirrored = np.linalg.det(ways[:, 1:]) < 0
+    ways[mirrored] = ways[mirrored][:, [0, 2, 1, 3]]
+    corners = 2 * np.stack(np.indices((n,) * 3), axis=-1).reshape(-1, 1, 1, 3)
+    vertices = (corners + ways).reshape(-1, 4, 3)
+    nodes = np.concatenate([vertices, vertices[:, EDGES].sum(axis=2) // 2], axis=1)
+    shape = (2 * n + 1,) * 3
+    points = np.stack(np.indices(shape), axis=-1).reshape(-1, 3) / (2.0 * n)
+    planes = {f"{axis}{sign}": lambda x, i=i, at=at: np.abs(x[:, i] - at) < 1e-9
+              for i, axis in enumerate("xyz") for sign, at in (("-", 0.0), ("+", 1.0))}
+    mesh = with_faces(points, np.ravel_multi_index(tuple(np.moveaxis(nodes, -1, 0)), shape), planes)
+    return TetMesh(mapping(points), mesh.cells, mesh.facets)
+
+
+def tube(x: np.ndarray) -> np.ndarray:
+    """Return points of the unit cube as those of a quarter of a tube: radii 1 and 2, length 1."""
+    r, angle = 1.0 + x[:, 0], np.pi / 2 * x[:, 1]
+    return np.stack([r * np.cos(angle), r * np.sin(angle), x[:, 2]], axis=1)
 
 
 def prism(size: Sequence[float], n: Sequence[int]) -> HexMesh:
