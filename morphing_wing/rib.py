@@ -42,7 +42,8 @@ class Rib(Scene):
     material
         Resin.
     fidelity
-        "instant" (the paper's formula, moments only), "draft" (a frame of beams), or "auto": the
+        "instant" (the paper's formula, moments only), "cell" (a chain of one cell's condensed
+        solid), "draft" (a frame of beams), "standard" and "reference" (a solid), or "auto": the
         cheapest that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
@@ -71,6 +72,8 @@ class Rib(Scene):
             picked = pick("rib", fidelity, tolerance, geometry.n_cells).fidelity
             if picked == "instant":
                 from .instant import InstantRib as kind
+            elif picked == "cell":
+                from .condensed_rib import CondensedRib as kind
             elif picked in ("standard", "reference"):
                 from .solid_rib import SolidRib as kind
         return super().__new__(kind)
@@ -89,7 +92,7 @@ class Rib(Scene):
         self.primary_load = "torque_Nmm"
         self._options_prefix = options_prefix
         self._build()
-        self._guide = compat.constant(self.tail.mesh, self._tail_place + [0.0, -100.0, 0.0])
+        self._guide = self._held(self._tail_place + [0.0, -100.0, 0.0])
 
     def _build(self) -> None:
         """Make the system, and the tail that loads act on."""
@@ -97,6 +100,10 @@ class Rib(Scene):
         self.tail = FrameEnd(self.beams, "tail")
         clamped = self.beams.end_dofs("root", 0)
         self.system = EquilibriumSystem(self.comm, [Block(self.beams.function, clamped)])
+
+    def _held(self, place: np.ndarray) -> Any:
+        """Return a place whose ``value`` may change, as the tail's potentials take it."""
+        return compat.constant(self.tail.mesh, place)
 
     @property
     def _tail_place(self) -> np.ndarray:
