@@ -130,5 +130,5 @@ def check_cuts(rib: RibGeometry) -> None:
     if reach > 0.95 * room:
         raise InputError(
             f"crossing_angle = {rib.crossing_angle:g} degrees: the root cuts shafts off over "
-            f"{reach:.4g} mm of their length: must be less than {0.95 * room:.4g} mm where "
-            "fidelity is 'cell'")
+            f"{reach:.4g} mm of their length: must be at most {0.95 * room:.4g} mm for a rib that "
+            "is made of one cell")

@@ -11,7 +11,8 @@ moves little, so that it stores
 
 with the stiffness K of small displacements, however far it has turned. The sum is quadratic in
 :math:`\theta, \eta, \alpha, \ell`: what no load works on is eliminated once for all. Lengths and
-turns only meet in the place of the tail, :math:`\sum \ell_e (\cos\alpha_e, \sin\alpha_e)`.
+turns only meet in the place of the tail, :math:`\sum \ell_e (\cos\alpha_e, \sin\alpha_e)`. That an
+arc's chord is shorter is left out: 0.07 % where a cell turns by 7.5 degrees, 0.3 % at 15.
 """
 
 from __future__ import annotations
@@ -55,8 +56,8 @@ class RibChain:
     def __init__(self, rib: RibGeometry, pieces: Condensed, E: float) -> None:
         n = rib.n_cells
         self.lengths = rib.pitch * np.array([CUT, *[1.0] * (n - 1), 1.0 - CUT])
-        section = _section(rib)
-        kinds = {piece: 2.0 * E * _of_chord(rib, piece, pieces.stiffness[piece], section)
+        section = section_deformations(rib)
+        kinds = {piece: 2.0 * E * chord_stiffness(rib, piece, pieces.stiffness[piece], section)
                  for piece in PIECES}
         own = 1 + section.shape[1]  # a section's turn and deformations
         self.dofs = own * n + 2 * n + 3
@@ -100,13 +101,13 @@ def _centre(rib: RibGeometry, number: int) -> np.ndarray:
     return np.mean([found.place * [1.0, 1.0, 0.0] for found in _both(rib, number)], axis=0)
 
 
-def _section(rib: RibGeometry) -> np.ndarray:
+def section_deformations(rib: RibGeometry) -> np.ndarray:
     """Return a basis of the fields of a section that hold no translation and no turn."""
     rigid = [shift(0), shift(1), turn(_both(rib, 1), _centre(rib, 1))]
     return null_space(np.array(rigid))
 
 
-def _of_chord(
+def chord_stiffness(
     rib: RibGeometry, piece: str, stiffness: np.ndarray, section: np.ndarray
 ) -> np.ndarray:
     """Return a piece's stiffness by its chord's turn and length, and both sides' own unknowns.

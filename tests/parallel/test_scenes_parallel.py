@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from morphing_wing import condensed_rib
 from morphing_wing.fields import mode_grids
+from morphing_wing.geometry import rib_solid
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
 from morphing_wing.materials import Adhesive
@@ -98,6 +100,15 @@ def test_rib_is_the_same():
         return Rib(RibGeometry.validation(), comm=comm).bend(torque=[2.0, 5.0])
 
     compare(run)
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("lead", [lambda r: r.bend(torque=[2.0, 5.0]), lambda r: r.pull(cable=0.5)],
+                         ids=["moment", "cable"])
+def test_rib_of_one_condensed_cell_is_the_same(lead, monkeypatch):
+    monkeypatch.setattr(rib_solid, "_PER_TURN", 6)
+    monkeypatch.setattr(condensed_rib, "SIZE", 1.2)
+    compare(lambda comm: lead(Rib(RibGeometry.validation(), fidelity="cell", comm=comm)))
 
 
 def wing(comm):
