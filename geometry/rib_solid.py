@@ -90,9 +90,12 @@ def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
 
 def meshed(
     rib: RibGeometry, bars: list[Bar], pivots: list[Pivot], around: int, half: bool,
-    faces: dict[str, Any],
+    faces: dict[str, Any], bodies: int = 1,
 ) -> TetMesh:
-    """Return some bars and pivots of a rib as one mesh; see `rib_solid` and `with_faces`."""
+    """Return some bars and pivots of a rib as one mesh; see `rib_solid` and `with_faces`.
+
+    ``bodies`` is how many solids that are not joined they must make.
+    """
     check_room(rib)
     if half:
         faces = faces | {"symmetry": lambda x: np.abs(x[:, 2]) < 1e-6}
@@ -106,8 +109,8 @@ def meshed(
             build.fuse(solids[:1], solids[1:])
         build.synchronize()
         parts = len(gmsh.model.getEntities(3))
-        if parts != 1:
-            raise RuntimeError(f"the rib's parts were fused to {parts} bodies, must be one")
+        if parts != bodies:
+            raise RuntimeError(f"the rib's parts were fused to {parts} bodies, must be {bodies}")
         for name, value in {
             "CharacteristicLengthMax": size, "CharacteristicLengthFromCurvature": 1,
             "MinimumElementsPerTwoPi": around, "CharacteristicLengthMin": 0.1 * size,

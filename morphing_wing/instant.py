@@ -14,6 +14,7 @@ from mpi4py import MPI
 from .analytic_rib import rib_compliance
 from .analytic_spar import SparFormula
 from .errors import InputError, plain
+from .fieldless import Fieldless
 from .geometry.rib import RibGeometry
 from .geometry.spar import SparGeometry
 from .ladder import AUTO, pick
@@ -27,33 +28,24 @@ from .stepping import REACHED
 from .targets import load_targets, load_words
 
 
-class Formula:
-    """What scenes without a mesh share; the other scenes' attributes refuse to be used."""
+class Formula(Fieldless):
+    """What scenes without a mesh share."""
 
-    functions: Mapping[str, Any] = {}
     dofs = 0
 
     def _set_up(self, asked: str, **left_out: Any) -> None:
         for name, value in left_out.items():
             if value is not None:
-                raise InputError(f"{name} = {value!r}: must be left out where fidelity is "
-                                 "\"instant\"")
-        self._where = "where fidelity is \"instant\"" + (
-            ", which \"auto\" took" if asked == AUTO else "")
+                raise InputError(f"{name} = {value!r}: must be left out {super()._where}")
+        self._asked = asked
+
+    @property
+    def _where(self) -> str:
+        return super()._where + (', which "auto" took' if self._asked == AUTO else "")
 
     def fill(self, *_: Any, **__: Any) -> NoReturn:
         """Refuse: there are no chambers."""
         return self.system
-
-    def linearise(self) -> NoReturn:
-        """Refuse: there is no tangent."""
-        return self.system
-
-    @property
-    def system(self) -> NoReturn:
-        """There is none."""
-        raise InputError("fidelity = 'instant': must be another one here, a formula without "
-                         "a field of displacements")
 
     def _led(
         self,
@@ -63,9 +55,7 @@ class Formula:
         resume: str | os.PathLike | None,
     ) -> Path:
         """Return the path of measures and stored energies of each load, up to a reason to stop."""
-        if resume is not None:
-            raise InputError(f"resume = {os.fspath(resume)!r}: must be left out {self._where}; it "
-                             "leaves nothing to resume")
+        self._check_resume(resume)
         begin, states, reason = time.perf_counter(), [], REACHED
         for load in targets:
             clock = time.perf_counter()

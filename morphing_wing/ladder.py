@@ -20,7 +20,7 @@ __all__ = ["AUTO", "LADDERS", "Pick", "errors_of", "pick"]
 
 LADDERS = {
     "spar": ("instant", "cell", "draft", "standard", "reference"),
-    "rib": ("instant", "draft", "standard", "reference"),
+    "rib": ("instant", "cell", "draft", "standard", "reference"),
     "wing": ("draft", "standard", "reference"),
 }
 """Rungs that each scene has, cheapest first."""

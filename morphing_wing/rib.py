@@ -44,7 +44,8 @@ class Rib(Scene):
     material
         Resin.
     fidelity
-        "instant" (the paper's formula, moments only), "draft" (a frame of beams), or "auto": the
+        "instant" (the paper's formula, moments only), "cell" (a chain of one cell's condensed
+        solid), "draft" (a frame of beams), "standard" and "reference" (a solid), or "auto": the
         cheapest that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
@@ -74,6 +75,8 @@ class Rib(Scene):
             picked = pick("rib", fidelity, tolerance, geometry.n_cells).fidelity
             if picked == "instant":
                 from .instant import InstantRib as kind
+            elif picked == "cell":
+                from .condensed_rib import CondensedRib as kind
             elif picked in ("standard", "reference"):
                 from .solid_rib import SolidRib as kind
         return super().__new__(kind)
@@ -91,14 +94,22 @@ class Rib(Scene):
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self._options_prefix = options_prefix
+        self._build()
+        self._guide = self._held(np.array([0.0, -100.0, 0.0]))
+
+    def _build(self) -> None:
+        """Make the ribs and the system."""
         self.ribs = ribs = self._made()
         local = [part.block for part in ribs.parts if part.block.local]
         self.system = EquilibriumSystem(self.comm, [*ribs.unknowns, *local])
         ribs.join(self.system)
-        self._guide = compat.constant(ribs.motion_mesh, [0.0, -100.0, 0.0])
 
     def _made(self) -> BeamFrame | SolidRibs:
         return BeamFrame(self.comm, self.geometry.frame(), self.material, clamped=True)
+
+    def _held(self, place: np.ndarray) -> Any:
+        """Return a place whose ``value`` may change, as the tail's potentials take it."""
+        return compat.constant(self.ribs.motion_mesh, place)
 
     def bend(
         self,

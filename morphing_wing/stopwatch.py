@@ -12,6 +12,7 @@ from typing import Any
 
 from mpi4py import MPI
 
+from .fieldless import Fieldless
 from .newton import Newton
 from .scene import Scene
 
@@ -34,7 +35,7 @@ class Stopwatch:
 
     def __init__(self, scene: Scene) -> None:
         self.seconds = {"assembly": 0.0, "factor": 0.0}
-        if scene.dofs == 0:
+        if isinstance(scene, Fieldless):
             return
         for name in ("residual", "tangent"):
             self._watch(scene.system, name, "assembly")

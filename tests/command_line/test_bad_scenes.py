@@ -54,8 +54,8 @@ BROKEN = {
         toml(SPAR, head='scene = "spar"\nfidelity = "best"'),
         "fidelity = 'best': must be one of instant, cell, draft, standard"),
     "fidelity that a rib has not": (
-        toml(RIB, head='scene = "rib"\nfidelity = "standard"'),
-        "fidelity = 'standard': must be one of instant, draft, or auto"),
+        toml(RIB, head='scene = "rib"\nfidelity = "finest"'),
+        "fidelity = 'finest': must be one of instant, cell, draft, standard, reference, or auto"),
     "bare number for a length": (
         geometry(SPAR, "top_thickness = 1.2"), "geometry.top_thickness = 1.2: must be a length"),
     "number without unit in text": (

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from morphing_wing import solid_rib
+from morphing_wing import condensed_rib, solid_rib
 from morphing_wing.fields import mode_grids
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
@@ -99,6 +99,14 @@ def test_rib_is_the_same():
         return Rib(RibGeometry.validation(), comm=comm).bend(torque=[2.0, 5.0])
 
     compare(run)
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("lead", [lambda r: r.bend(torque=[2.0, 5.0]), lambda r: r.pull(cable=0.5)],
+                         ids=["moment", "cable"])
+def test_rib_of_one_condensed_cell_is_the_same(lead, monkeypatch):
+    monkeypatch.setattr(condensed_rib, "AROUND", 6)
+    compare(lambda comm: lead(Rib(RibGeometry.validation(), fidelity="cell", comm=comm)))
 
 
 def wing(comm):

@@ -122,5 +122,5 @@ def test_loads_that_cannot_be_are_refused(call, sentence):
 
 
 def test_unknown_fidelity_is_refused():
-    with pytest.raises(InputError, match="fidelity = 'finest': must be one of instant, draft"):
+    with pytest.raises(InputError, match="fidelity = 'finest': must be one of instant, cell"):
         Rib(RibGeometry.validation(), fidelity="finest")
