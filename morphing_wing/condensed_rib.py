@@ -21,7 +21,7 @@ from .rib_chain import RibChain
 from .stepping import follow
 from .targets import load_targets
 
-AROUND = 24
+AROUND = {"cell": 24}
 """Elements around a cylinder: one cell may be finer than a whole rib."""
 
 
@@ -36,9 +36,10 @@ class CondensedRib(Fieldless, Rib):
 
     kind = "a chain of condensed cells"
     multiplicity = 2
+    _around = AROUND
 
     def _build(self) -> None:
-        self._pieces = condensed(self.comm, self.geometry, self.material.nu, AROUND,
+        self._pieces = condensed(self.comm, self.geometry, self.material.nu, self.around,
                                  self._options_prefix + "factor_")
         self.chain = RibChain(self.geometry, self._pieces, self.material.E)
         self._y = np.zeros(len(self.chain.stiffness))

@@ -142,10 +142,11 @@ class InstantRib(Formula, Rib):
         comm: MPI.Comm | None = None,
         options_prefix: str = "",
         tolerance: float | None = None,
+        around: int | None = None,
     ) -> None:
         picked = pick("rib", fidelity, tolerance, geometry.n_cells)
         Scene.__init__(self, picked, comm)
-        self._set_up(fidelity)
+        self._set_up(fidelity, around=around)
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self._compliance = rib_compliance(geometry, material)

@@ -111,6 +111,12 @@ def errors_of(scene: str, n_cells: int = 0) -> dict[str, float]:
     return found
 
 
+def known(scene: str, case: str) -> float:
+    """Return the angle in degrees against which the kept errors of a case were taken."""
+    return next(row["angle_deg"] / (1.0 + row["error"]) for row in _measured(scene)
+                if row["case"] == case)
+
+
 @cache
 def _measured(scene: str) -> list[dict[str, Any]]:
     file = resources.files("morphing_wing") / "measured" / f"{scene}.csv"
@@ -118,7 +124,8 @@ def _measured(scene: str) -> list[dict[str, Any]]:
         return []
     with file.open(encoding="utf-8") as text:
         return [{"fidelity": row["fidelity"], "n_cells": int(row["n_cells"]),
-                 "error": float(row["error"]),
+                 "case": row["case"], "error": float(row["error"]),
+                 "angle_deg": float(row["angle_deg"]),
                  # Some angles were taken without their cost.
                  "seconds": math.inf if row["seconds"] in ("", "nan") else float(row["seconds"])}
                 for row in csv.DictReader(text)]

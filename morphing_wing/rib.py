@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,14 +14,14 @@ from mpi4py import MPI
 from . import compat
 from .angles import deflection_line, rotation_about_z
 from .drawing import Drawing, bar_radii, default_drawing
-from .errors import require
+from .errors import is_count, require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .forms.gravity import mass_density
 from .frame import BeamFrame, turned_x
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
-from .ladder import pick
+from .ladder import Pick, pick
 from .materials import RESIN, Elastic
 from .newton import Newton
 from .path import Path, State
@@ -51,6 +51,8 @@ class Rib(Scene):
         Communicator; all ranks of MPI by default.
     options_prefix
         Prefix of this scene's PETSc options.
+    around
+        Elements around a cylinder, of a solid or a cell, in place of the fidelity's.
     tolerance
         Relative error that "auto" may have, see `morphing_wing.ladder.pick`.
 
@@ -63,6 +65,7 @@ class Rib(Scene):
     name = "rib"
     load_names = ("torque_Nmm", "cable_N")
     stepping = Stepping(easy=10)
+    _around: Mapping[str, int] = {}
     _element = "Simo-Reissner beam, quadratic, 2 Gauss points"
 
     def __new__(
@@ -89,8 +92,16 @@ class Rib(Scene):
         comm: MPI.Comm | None = None,
         options_prefix: str = "rib_",
         tolerance: float | None = None,
+        around: int | None = None,
     ) -> None:
-        super().__init__(pick("rib", fidelity, tolerance, geometry.n_cells), comm)
+        picked = pick("rib", fidelity, tolerance, geometry.n_cells)
+        if around is not None:
+            meshed = picked.fidelity in self._around
+            require(meshed and is_count(around) and around >= 4, "around", around, "",
+                    "a whole number of at least 4, of a fidelity with tetrahedra")
+            picked = Pick(picked.fidelity, None)
+        super().__init__(picked, comm)
+        self.around = around or self._around.get(picked.fidelity)
         self.geometry, self.material = geometry, material
         self.primary_load = "torque_Nmm"
         self._options_prefix = options_prefix

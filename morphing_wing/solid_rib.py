@@ -19,10 +19,11 @@ class SolidRib(Rib):
     """
 
     multiplicity = 2
+    _around = AROUND
     _element = "P2, curved tetrahedra"
 
     def _made(self) -> SolidRibs:
-        return SolidRibs(self.comm, self.geometry, self.material, AROUND[self.fidelity],
+        return SolidRibs(self.comm, self.geometry, self.material, self.around,
                          half=True, clamped=True)
 
     def drawing(self, state: State) -> Drawing:

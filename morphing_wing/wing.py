@@ -16,7 +16,7 @@ from .chambers import Chambers
 from .drawing import Drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
-from .errors import require
+from .errors import is_count, require
 from .forms.gravity import mass_density
 from .frame import BeamFrame
 from .geometry.frame import join
@@ -74,12 +74,16 @@ class Wing(TrimmedWing):
     elastomer, resin
         Materials of spar and skin, and of the ribs.
     fidelity
-        "draft" (linear hexahedra, fine mesh, enhanced strains in the skin) or "standard"
-        (quadratic hexahedra); frame ribs. "auto": the cheaper one that fits the tolerance.
+        "draft" (linear hexahedra, fine mesh, enhanced strains in the skin), "standard" (quadratic
+        hexahedra), both with frame ribs, or "reference" (quadratic ones graded at the chambers'
+        corners, solid ribs). "auto": the cheapest one that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
     meshing, element
         Replace those of the fidelity.
+    around
+        Elements around a pivot: makes the ribs solids in any fidelity; None: as the fidelity has
+        them.
     contact
         Whether the pocket's sides and the ribs press against each other. Without, ``contact`` in
         the path's table says from where on they pass through each other.
@@ -112,9 +116,13 @@ class Wing(TrimmedWing):
         contact: bool = True,
         adhesive: Adhesive | None = None,
         tolerance: float | None = None,
+        around: int | None = None,
     ) -> None:
         picked = pick("wing", fidelity, tolerance, geometry.n_cells)
-        if meshing is not None or element is not None:
+        if around is not None:
+            require(is_count(around) and around >= 4, "around", around, "",
+                    "a whole number of at least 4")
+        if any(given is not None for given in (meshing, element, around)):
             require(fidelity != AUTO, "fidelity", fidelity, "", "a rung's name with a mesh or an "
                     "element of one's own")
             picked = Pick(picked.fidelity, None)
@@ -134,7 +142,7 @@ class Wing(TrimmedWing):
         )
         unknowns = [self.body.block]
         if geometry.rib is not None:
-            self.ribs = _ribs(self.comm, geometry, resin, rung)
+            self.ribs = _ribs(self.comm, geometry, resin, around or rung.around)
             law = adhesive or Adhesive(geometry.glue_stiffness)
             self.glue = Glue(self.body, self.ribs, geometry, law)
             unknowns += self.ribs.unknowns
@@ -326,8 +334,8 @@ class Wing(TrimmedWing):
 
 
 def _ribs(
-    comm: MPI.Comm, wing: WingGeometry, resin: Elastic, rung: WingFidelity
+    comm: MPI.Comm, wing: WingGeometry, resin: Elastic, around: int | None
 ) -> BeamFrame | SolidRibs:
-    if rung.around is not None:
-        return SolidRibs(comm, wing.rib, resin, rung.around, wing.rib_roots())
+    if around is not None:
+        return SolidRibs(comm, wing.rib, resin, around, wing.rib_roots())
     return BeamFrame(comm, join([wing.rib.frame().placed(x) for x in wing.rib_roots()]), resin)

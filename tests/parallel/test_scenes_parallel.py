@@ -105,7 +105,7 @@ def test_rib_is_the_same():
 @pytest.mark.parametrize("lead", [lambda r: r.bend(torque=[2.0, 5.0]), lambda r: r.pull(cable=0.5)],
                          ids=["moment", "cable"])
 def test_rib_of_one_condensed_cell_is_the_same(lead, monkeypatch):
-    monkeypatch.setattr(condensed_rib, "AROUND", 6)
+    monkeypatch.setitem(condensed_rib.AROUND, "cell", 6)
     compare(lambda comm: lead(Rib(RibGeometry.validation(), fidelity="cell", comm=comm)))
 
 

@@ -28,7 +28,7 @@ RESIN = Elastic(2500.0, 0.35)
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch):
     """Mesh coarsely."""
-    monkeypatch.setattr(condensed_rib, "AROUND", 6)
+    monkeypatch.setitem(condensed_rib.AROUND, "cell", 6)
 
 
 def rib(n_cells, material=RESIN):
