@@ -1,8 +1,8 @@
 """The wing's trade: the paper's prototype without its skin, under pressure and cables.
 
-Errors are relative to "reference" with ribs of `FINEST` elements around a pivot in place of 6: on the
-same mesh of the elastomer. With its skin, which folds and touches, the finest mesh takes more than
-ten minutes a load; README compares the rungs there.
+Errors are relative to "reference" with ribs of `FINEST` elements around a pivot in place of 6, on
+the same mesh of the elastomer. With its skin, which folds and touches, the finest mesh takes more
+than ten minutes a load; README compares the rungs there.
 """
 
 from __future__ import annotations
