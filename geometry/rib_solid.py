@@ -258,6 +258,8 @@ def _unfolded(mesh: TetMesh) -> TetMesh:
     points = mesh.points.copy()
     for _ in range(_HALVINGS):
         bad = TetMesh(points, mesh.cells, mesh.facets).smallest_jacobian() < _CURVED
+        if not bad.any():
+            break
         middles, first = np.unique(mesh.cells[bad, 4:], return_index=True)
         ends = points[mesh.cells[bad][:, EDGES].reshape(-1, 2)[first]]
         points[middles] = 0.5 * (points[middles] + ends.mean(axis=1))
