@@ -12,7 +12,7 @@ Eqs 14 and 17.2 as printed exchange a second moment and a length; from the energ
     \varphi_2 = \theta_1 + (n - 1)\, \theta_i .
 
 The paper's c is 27/4; moments T, 2T, T in the three shafts, which the energies themselves ask for,
-make it 6.
+make it 6. ``docs/rib_formula.md`` derives all of it.
 """
 
 from __future__ import annotations
