@@ -26,7 +26,7 @@ SCENES = {"skin": {}, "no contact": {}, "no skin": {"skin_thickness": None},
 LOADS = {"pressure": {"upper": np.linspace(0.0, 0.04, 9)[1:]},
          "cables": {"cable": np.linspace(0.0, 0.5, 9)[1:]},
          "both": {"upper": np.linspace(0.0, 0.025, 5)[1:], "cable": np.linspace(0.0, 0.2, 5)[1:]}}
-FIDELITIES = ("draft", "standard")
+FIDELITIES = ("draft", "standard", "reference")
 COLUMNS = {
     "scene": "{}", "load": "{}", "fidelity": "{}", "dofs": "{:,}", "points": "{}",
     "iterations": "{}", "factorisations": "{}", "seconds": "{:.0f}", "peak_MB": "{:.0f}",
