@@ -2,7 +2,7 @@
 
 Six cells, half by symmetry, E = 2500 MPa, nu = 0.35, four meshes each, from 8 to 18 elements around
 a cylinder; the angle is fitted by a - c around^-q, a is the limit. Beside it frame and condensed
-cell. Ten minutes in all, 4 GB; ``--ranks 2`` and ``--around`` for less.
+cell. Ten minutes in all, 4 GB; ``--ranks 2`` and four coarser ``--around`` for less.
 """
 
 import argparse

@@ -23,6 +23,9 @@ from .section import Circle, Rectangle, Section, Stiffened
 
 KINDS = ("shaft", "boss", "pivot", "centre_pivot", "socket", "arm", "root", "tail")
 SECTIONS = ("flush", "square")
+HALF = (0, 1)
+"""The layers of a half rib, z > 0."""
+
 LAYERS = {2: (0, 1), 3: (-1, 0, 1)}
 """Of each number of layers, which there are: layer 0 rises along x, the others fall."""
 
@@ -51,10 +54,8 @@ class RibGeometry:
         l_cs from face to face. The first fits the paper's Table 3 better.
     bosses
         Where cylinders are wider than the bars (only ``"square"``): True: they run through them,
-        and there a bar is as wide as the cylinder; False: they end at the bars' faces. Measured
-        on a solid of Section 5.1's set (2.397 degrees per N mm; n = 6, nu = 0.35, E = 2500 MPa)
-        the frame gives 2.362 with and 3.028 without; on one of Section 3.3's (1.85 to 1.87) 1.772
-        with and 1.902 without.
+        and there a bar is as wide as the cylinder; False: they end at the bars' faces. See the
+        README's trade for how frames compare with solids of either kind.
     layers
         3: the paper's rib, its own mirror image in z = 0. 2: one rising and one falling layer, as
         pantographs had before, with the pivots of one gap; z = 0 lies midway between them, so

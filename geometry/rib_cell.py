@@ -14,14 +14,14 @@ import numpy as np
 
 from morphing_wing.errors import InputError
 
-from .rib import RibGeometry
+from .rib import HALF, RibGeometry
 from .rib_solid import Bar, Pivot, meshed
 from .tetmesh import TetMesh
 
 CUT = 0.25
 """Where a bar is cut, over its length between joints."""
 
-LAYERS = (0, 1)
+
 PIECES = ("root", "cell", "tail")
 
 _NEAR = 1e-6
@@ -79,7 +79,7 @@ def cuts(rib: RibGeometry, piece: str) -> dict[str, Cut]:
     """Return the cuts of a piece by the names of their faces, see `rib_piece`."""
     ends = {"root": {"stop": 1}, "cell": {"start": 1, "stop": 2}, "tail": {"start": 1}}[piece]
     return {f"{end}_{layer}": cut(rib, layer, number)
-            for end, number in ends.items() for layer in LAYERS}
+            for end, number in ends.items() for layer in HALF}
 
 
 def rib_piece(rib: RibGeometry, piece: str, around: int) -> TetMesh:
@@ -105,14 +105,14 @@ def rib_piece(rib: RibGeometry, piece: str, around: int) -> TetMesh:
     check_cuts(rib)
     faces = {name: found.holds for name, found in cuts(rib, piece).items()}
     if piece == "root":
-        bars, pivots = [Bar(layer, 1, 0.0, CUT) for layer in LAYERS], []
+        bars, pivots = [Bar(layer, 1, 0.0, CUT) for layer in HALF], []
         faces["root"] = lambda x: np.abs(x[:, 0]) < _NEAR
         return meshed(one_cell(rib), bars, pivots, around, True, faces, bodies=len(bars))
-    bars, pivots = [Bar(layer, 1, CUT, 1.0) for layer in LAYERS], [Pivot("C", 1)]
+    bars, pivots = [Bar(layer, 1, CUT, 1.0) for layer in HALF], [Pivot("C", 1)]
     if piece == "tail":
         faces["tail"] = lambda x: np.abs(x[:, 0] - rib.pitch) < _NEAR
         return meshed(one_cell(rib), bars, pivots, around, True, faces)
-    bars += [Bar(layer, 2, 0.0, CUT) for layer in LAYERS]
+    bars += [Bar(layer, 2, 0.0, CUT) for layer in HALF]
     pivots += [Pivot(name, 1) for name in "TB"]
     return meshed(replace(rib, n_cells=2), bars, pivots, around, True, faces)
 

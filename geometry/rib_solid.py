@@ -18,7 +18,7 @@ import numpy as np
 
 from morphing_wing.errors import InputError, require
 
-from .rib import LAYERS, RibGeometry
+from .rib import HALF, LAYERS, RibGeometry
 from .tetmesh import EDGES, TetMesh, with_faces
 
 NOTCH = 0.006
@@ -78,7 +78,7 @@ def rib_solid(rib: RibGeometry, around: int, half: bool = True) -> TetMesh:
         If parts collide that are not joined.
     """
     n, length = rib.n_cells, rib.length
-    layers = (0, 1) if half else LAYERS[rib.layers]
+    layers = HALF if half else LAYERS[rib.layers]
     bars = [Bar(layer, i) for layer in layers for i in range(1, n + 1)]
     pivots = [Pivot(name, i) for name in "TB" for i in range(1, n)]
     pivots += [Pivot("C", i) for i in range(1, n + 1)]

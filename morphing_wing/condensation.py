@@ -120,10 +120,13 @@ def _schur(K: PETSc.Mat, rows: np.ndarray, moved: np.ndarray, prefix: str) -> np
     pc.setFactorSolverType("mumps")
     pc.setOperators(K_ii)
     options, memory = PETSc.Options(prefix), "mat_mumps_icntl_14"
-    if not options.hasName(memory):  # per cent: of small matrices MUMPS guesses it too small
+    ours = not options.hasName(memory)
+    if ours:  # per cent: of small matrices MUMPS guesses it too small
         options.setValue(memory, 200)
     pc.setFromOptions()
     pc.setUp()
+    if ours:  # others have this prefix too
+        options.delValue(memory)
     failed = pc.getFactorMatrix().getMumpsInfog(1)
     if failed < 0:
         raise RuntimeError(f"a piece of the rib could not be factorised (MUMPS error {failed})")
@@ -135,6 +138,6 @@ def _schur(K: PETSc.Mat, rows: np.ndarray, moved: np.ndarray, prefix: str) -> np
     parts = [(P, direct, 1.0), (F, X, -1.0), (X, F, -1.0), (X, inside, 1.0)]
     found = comm.allreduce(sum(
         sign * left.getDenseArray().T @ right.getDenseArray() for left, right, sign in parts))
-    for thing in (pc, P, F, X, direct, inside, K_bb, K_ib, K_ii, b, i):
+    for thing in (pc, P, F, X, direct, inside, K_bb, K_ib, K_ii, K, b, i):
         thing.destroy()
     return 0.5 * (found + found.T)

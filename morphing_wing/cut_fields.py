@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from .geometry.rib_cell import LAYERS, Cut
+from .geometry.rib_cell import HALF, Cut
 
 _MONOMIALS = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
 
-COLUMNS = [(layer, m, axis) for layer in LAYERS for m in _MONOMIALS for axis in range(3)
+COLUMNS = [(layer, m, axis) for layer in HALF for m in _MONOMIALS for axis in range(3)
            if layer == 1 or m[1] % 2 == (axis == 2)]
 """Layer, powers of a and zeta, and axis of each coefficient."""
 
@@ -36,7 +36,7 @@ def fields(cut: Cut, places: np.ndarray) -> np.ndarray:
 
 def shift(axis: int) -> np.ndarray:
     """Return the coefficients of a unit translation along an axis."""
-    return _coefficients({layer: {(0, 0): np.eye(3)[axis]} for layer in LAYERS})
+    return _coefficients({layer: {(0, 0): np.eye(3)[axis]} for layer in HALF})
 
 
 def turn(cuts: Sequence[Cut], centre: Sequence[float]) -> np.ndarray:

@@ -111,7 +111,7 @@ def errors_of(scene: str, n_cells: int = 0) -> dict[str, float]:
     return found
 
 
-def known(scene: str, case: str) -> float:
+def kept_exact(scene: str, case: str) -> float:
     """Return the angle in degrees against which the kept errors of a case were taken."""
     return next(row["angle_deg"] / (1.0 + row["error"]) for row in _measured(scene)
                 if row["case"] == case)

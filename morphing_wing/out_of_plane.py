@@ -3,14 +3,14 @@ r"""How far a rib under loads in its plane leaves this plane: the distortion of 
 Three layers are their own mirror image in z = 0 and cannot leave it. Two are not; their tail moves
 sideways, twists and yaws.
 
-**What the moment is then.** `Rib.bend` has the potential :math:`-M \theta_z` with the third
+**What the moment is then.** `Rib.bend` has the potential :math:`M \theta_z` with the third
 component of the rotation vector. There is no other meaning of "a moment M" at large rotations that
 all would share: one about a fixed axis has no potential. With the spin :math:`\delta\omega = T
 \delta\theta` of `morphing_wing.forms.beam.tangent_map`, this one is the moment in space
 
-.. math:: m = M \, T(\theta)^{-T} e_z,
+.. math:: m = -M \, T(\theta)^{-T} e_z,
 
-which is M about z as long as the tail turns about z alone. ``moment_tilt_deg`` is the angle
+which is -M about z as long as the tail turns about z alone. ``moment_tilt_deg`` is the angle
 between m and z: where it is a fraction of a degree, the choice does not matter.
 """
 
@@ -43,7 +43,9 @@ def out_of_plane(path: Path) -> pd.DataFrame:
     for state in path:
         with shown(path.scene, state):
             tail = path.scene.ribs.end_values("tail", 0)
-            sideways = np.abs(path.scene.ribs.function.x.array[2::6]).max(initial=0.0)
+            moved = path.scene.ribs.function
+            size = moved.function_space.dofmap.index_map_bs
+            sideways = np.abs(moved.x.array.reshape(-1, size)[:, 2]).max(initial=0.0)
         rows.append(state.load | {
             "chord_angle_deg": state.measures["chord_angle_deg"], "sideways_mm": tail[2],
             "twist_deg": np.degrees(tail[3]), "yaw_deg": np.degrees(tail[4]),

@@ -20,8 +20,8 @@ from .iterate import Iterate
 from .materials import Elastic
 
 QUADRATURE_DEGREE = 4
-"""Strains of second-order tetrahedra are linear where edges are straight; their energy has the
-fourth power of them."""
+"""Gradients in second-order tetrahedra are linear where edges are straight; the energy has their
+fourth power."""
 
 _SHARES = np.array([6.0] * 4 + [32.0] * 6) / 216.0
 """Of a cell's mass at its nodes, as the diagonal of its mass matrix has it: row sums at the

@@ -1,4 +1,4 @@
-"""The pantographic rib as a scene: a frame of beams with large rotations."""
+"""The pantographic rib as a scene: what all its kinds share, and the frame of beams."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ from scipy.sparse.linalg import splu
 from .condensation import Condensed
 from .cut_fields import SIZE, shift, turn
 from .geometry.rib import RibGeometry
-from .geometry.rib_cell import CUT, LAYERS, PIECES, Cut, cut
+from .geometry.rib_cell import CUT, HALF, PIECES, Cut, cut
 
 
 class RibChain:
@@ -93,7 +93,7 @@ class RibChain:
 
 
 def _both(rib: RibGeometry, number: int) -> list[Cut]:
-    return [cut(rib, layer, number) for layer in LAYERS]
+    return [cut(rib, layer, number) for layer in HALF]
 
 
 def _centre(rib: RibGeometry, number: int) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 from mpi4py import MPI
 from scipy.spatial import cKDTree
 
-from .geometry.rib import LAYERS, RibGeometry
+from .geometry.rib import HALF, LAYERS, RibGeometry
 from .geometry.shafts import shaft_joints, smallest_gap
 
 __all__ = ["ShaftGap"]
@@ -31,7 +31,7 @@ class ShaftGap:
 
     def __init__(self, ribs: object, rib: RibGeometry, roots: np.ndarray, half: bool) -> None:
         self._function, self._rib, self._comm = ribs.function, rib, ribs.comm
-        joints = shaft_joints(rib, (0, 1) if half else LAYERS[rib.layers])
+        joints = shaft_joints(rib, HALF if half else LAYERS[rib.layers])
         self._joints = joints + np.asarray(roots, dtype=float)[:, None, None, None]
         space = self._function.function_space
         self._size = space.dofmap.index_map_bs

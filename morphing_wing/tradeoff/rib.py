@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -9,8 +10,9 @@ from typing import Any
 
 from mpi4py import MPI
 
+from ..burial import bury
 from ..geometry.rib import RibGeometry
-from ..ladder import LADDERS, known
+from ..ladder import LADDERS, kept_exact
 from ..rib import Rib
 from ..solid_rib import AROUND
 from .limit import limit
@@ -43,7 +45,7 @@ def rows(comm: MPI.Comm, everything: bool) -> Iterator[dict[str, Any]]:
                  for fidelity in LADDERS["rib"]]
         solids = {AROUND[rung["fidelity"]]: rung["angle_deg"] for rung in found
                   if rung["fidelity"] in AROUND}
-        exact = _limit(comm, geometry, solids) if everything else known("rib", name)
+        exact = _limit(comm, geometry, solids) if everything else kept_exact("rib", name)
         for rung in found:
             yield rung | {"error": rung["angle_deg"] / exact - 1.0}
 
@@ -53,5 +55,7 @@ def _limit(comm: MPI.Comm, geometry: RibGeometry, angles: dict[int, float]) -> f
     for around in MESHES:
         path = Rib(geometry, fidelity="reference", comm=comm, around=around).bend(torque=1.0)
         angles[around] = path[-1].measures["chord_angle_deg"]
-        del path  # and with it the rib
+        del path
+        gc.collect()  # and with it the rib, on all ranks at once
+        bury(comm)
     return limit(*zip(*sorted(angles.items()), strict=True))[0]

@@ -11,7 +11,7 @@ from morphing_wing.condensed_rib import CondensedRib
 from morphing_wing.cut_fields import SIZE, shift, turn
 from morphing_wing.errors import InputError
 from morphing_wing.geometry.rib import RibGeometry
-from morphing_wing.geometry.rib_cell import LAYERS, PIECES, cut
+from morphing_wing.geometry.rib_cell import HALF, PIECES, cut
 from morphing_wing.materials import Elastic
 from morphing_wing.modes import modes
 from morphing_wing.path import load_table
@@ -56,7 +56,7 @@ def in_fixed_axes(pieces, n):
     size = SIZE * n + 3
     stiffness = np.zeros((size, size))
     seen = np.hstack([np.eye(SIZE), -shift(0)[:, None], -shift(1)[:, None], -turn(
-        [cut(GEOMETRY, layer, 1) for layer in LAYERS], [GEOMETRY.pitch, 0.0, 0.0])[:, None]])
+        [cut(GEOMETRY, layer, 1) for layer in HALF], [GEOMETRY.pitch, 0.0, 0.0])[:, None]])
     parts = [(0, pieces.stiffness["root"])]
     parts += [(SIZE * k, pieces.stiffness["cell"]) for k in range(n - 1)]
     parts += [(SIZE * (n - 1), seen.T @ pieces.stiffness["tail"] @ seen)]

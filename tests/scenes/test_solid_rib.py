@@ -107,7 +107,7 @@ def test_a_cable_turns_it_as_it_turns_the_frame():
     assert angles[0] == pytest.approx(angles[1], rel=0.05)
 
 
-def test_mass_is_twice_the_halfs_and_stress_grows_with_the_moment():
+def test_mass_is_that_of_the_half_and_stress_grows_with_the_moment():
     rib = solid()
     volume = rib.ribs.body.grid.volume()
     assert sum(mass.sum() for mass in rib.masses()) == pytest.approx(
