@@ -1,7 +1,7 @@
 """The wing's trade: the paper's prototype without its skin, under pressure and cables.
 
-Errors are relative to "reference" with ribs of `FINEST` elements around a pivot in place of 6, times
-what the angle of a wing with frames grows by from its mesh of the elastomer to the mesh `FINE`.
+Errors are relative to "reference" with ribs of `FINEST` elements around a pivot in place of 6,
+times what the angle of a wing with frames grows by from its mesh of the elastomer to `FINE`.
 With its skin, which folds and touches, the finest mesh takes more than ten minutes a load; README
 compares the rungs there.
 """

@@ -72,7 +72,9 @@ def test_all_rungs_were_measured(scene):
     errors = errors_of(scene, 20)
     assert set(errors) == set(LADDERS[scene])
     assert all(0.0 < error < 0.6 for error in errors.values())
-    assert errors[LADDERS[scene][-1]] == min(errors.values())
+    # One cell of a rib is meshed finer than a whole one.
+    best = "cell" if scene == "rib" else LADDERS[scene][-1]
+    assert errors[best] == min(errors.values())
 
 
 def test_all_rungs_with_a_mesh_are_those_of_the_ladder():
