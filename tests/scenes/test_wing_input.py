@@ -63,6 +63,6 @@ def test_a_wing_that_cannot_be_built_is_refused_before_it_is_meshed(changes, tex
 
 @pytest.mark.quick
 def test_a_fidelity_that_no_wing_has_is_refused_in_one_sentence():
-    sentence = r"^fidelity = 'best': must be one of draft, standard, or auto$"
+    sentence = r"^fidelity = 'best': must be one of draft, standard, reference, or auto$"
     with pytest.raises(InputError, match=sentence):
         Wing(GEOMETRY, fidelity="best", comm=MPI.COMM_SELF, meshing=WingMeshing.coarse())
