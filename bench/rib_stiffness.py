@@ -1,8 +1,8 @@
 """The whole rib as a solid, loaded in all six ways: how good the frame's stiffnesses are.
 
 Six cells, both presets and both sections, E = 2500 MPa, nu = 0.35: curved second-order tetrahedra,
-the root section clamped, the tail section on a rigid plate, no symmetry. Half a minute to two and
-2 GB each. Out of the plane the frame is the softer one: there a solid's cylinders stiffen the bars
+the root section clamped, the tail section on a rigid plate, no symmetry. A quarter of a minute
+each. Out of the plane the frame is the softer one: there a solid's cylinders stiffen the bars
 that they run through or end at, the frame's do not.
 """
 

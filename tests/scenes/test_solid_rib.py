@@ -122,6 +122,24 @@ def test_mass_is_that_of_the_half_and_stress_grows_with_the_moment():
 
 
 @pytest.mark.quick
+def test_a_density_of_ones_own_replaces_the_fidelitys_and_has_no_measured_error():
+    own = Rib(SHORT, fidelity="standard", comm=MPI.COMM_SELF, around=4)
+    assert own.dofs < solid().dofs
+    assert own.error_estimate is None
+    for fidelity, around in (("draft", 6), ("instant", 6), ("standard", 3), ("standard", 6.5)):
+        with pytest.raises(InputError, match="around = "):
+            Rib(SHORT, fidelity=fidelity, around=around)
+
+
+def test_a_solid_is_resumed_where_it_stood(tmp_path):
+    through = solid().bend(torque=[5.0, 10.0])[-1].measures["chord_angle_deg"]
+    solid().bend(torque=5.0, restart=tmp_path)
+    path = solid().bend(torque=[5.0, 10.0], resume=tmp_path)
+    assert len(path) == 2
+    assert path[-1].measures["chord_angle_deg"] == pytest.approx(through, rel=1e-9)
+
+
+@pytest.mark.quick
 def test_parts_that_collide_are_named_before_any_meshing():
     with pytest.raises(InputError, match="crossing_angle = 47 degrees: neighbouring shafts"):
         solid(replace(RibGeometry.prototype(6), crossing_angle=47.0))

@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from mpi4py import MPI
 
+from morphing_wing.surface import Crests
 from morphing_wing.weight import Weight
 from tests.scenes.small_wing import GEOMETRY, small_wing
 
@@ -33,6 +35,16 @@ def test_a_ribs_weight_is_that_of_its_volume():
     moved[:, 1] = 2.0
     weight = 1180.0e-9 * 9.80665 * scene.ribs.body.grid.volume()
     assert Weight(scene.body, scene.ribs).fall() == pytest.approx(-2.0 * weight, rel=1e-6)
+
+
+def test_crests_are_the_pivots_above_and_below_all_joints():
+    crests, rib = Crests(wing("reference").ribs.body), SHORT.rib
+    away = np.abs(crests.nodes.reference[:, 1] - SHORT.rib_roots()[0, 1])
+    assert (away > 0.5 * rib.height - 1e-9).all()
+    assert away.max() == pytest.approx(0.5 * (rib.height + rib.pivot_diameter), abs=0.02)
+    # Of two pivots above and two below; facets that are only partly beyond a joint are left out.
+    seen = 4.0 * rib.pivot_diameter * rib.depth
+    assert 0.8 * seen < crests.area.sum() < seen
 
 
 def test_crests_of_a_solid_rib_are_as_far_from_the_skin_as_a_frames_bars():
