@@ -34,7 +34,7 @@ class Faces:
         self._numbers = {name: [number[found] for found in sets if name in found] for name in pairs}
         every = np.array(list(names), dtype=np.int64).reshape(-1, 2)
         values = np.array([number[tuple(found)] for found in names.values()], dtype=np.int32)
-        here = self._is_local(every)
+        here, _ = self.local(every)
         self._tags = compat.facet_tags(mesh, self._local_facets(every), values[here])
 
     def on(self, face: str, integrand: Any, degree: int) -> Any:
@@ -81,14 +81,19 @@ class Faces:
             found.append(dofs[0])
         return np.unique(np.concatenate(found))
 
-    def _is_local(self, pairs: np.ndarray) -> np.ndarray:
-        """Return which pairs this rank has, as a mask."""
-        return np.isin(pairs[:, 0], compat.original_cells(self._mesh))
+    def local(self, pairs: np.ndarray, owned: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """Return which pairs this rank has, as indices, and the local cell of each of them.
+
+        ``owned`` leaves out those of ghost cells: every pair is then one rank's alone.
+        """
+        original = compat.original_cells(self._mesh)
+        if owned:
+            original = original[: self._mesh.topology.index_map(self._mesh.topology.dim).size_local]
+        order = np.argsort(original)
+        here = np.flatnonzero(np.isin(pairs[:, 0], original))
+        return here, order[np.searchsorted(original, pairs[here, 0], sorter=order)]
 
     def _local_facets(self, pairs: np.ndarray) -> np.ndarray:
         """Return this rank's number of each pair's facet that it has."""
-        original = compat.original_cells(self._mesh)
-        order = np.argsort(original)
-        pairs = pairs[self._is_local(pairs)]
-        cells = order[np.searchsorted(original, pairs[:, 0], sorter=order)]
-        return compat.cell_facets(self._mesh)[cells, pairs[:, 1]].astype(np.int32)
+        here, cells = self.local(pairs)
+        return compat.cell_facets(self._mesh)[cells, pairs[here, 1]].astype(np.int32)

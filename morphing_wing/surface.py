@@ -82,22 +82,16 @@ class Surface:
     def __init__(self, body: Elastomer, pairs: np.ndarray) -> None:
         """Take the facets given as pairs (cell of the grid, facet of the cell)."""
         space, dofs = body.displacement_space()
-        original = compat.original_cells(body.mesh)
-        n_owned = body.mesh.topology.index_map(3).size_local
-        local = {int(cell): i for i, cell in enumerate(original[:n_owned])}
         points = compat.interpolation_points(space)
         x = space.tabulate_dof_coordinates()
-        found, order = [], []
-        for number, (cell, facet) in enumerate(pairs):
-            if int(cell) in local:
-                cell_nodes = space.dofmap.cell_dofs(local[int(cell)])
-                found.append(_outward(cell_nodes, points, int(facet), x))
-                order.append(number)
+        order, cells = body.faces.local(pairs, owned=True)
+        found = [_outward(space.dofmap.cell_dofs(cell), points, int(facet), x)
+                 for cell, facet in zip(cells, pairs[order, 1], strict=True)]
         width = (body.element.degree + 1) ** 2
         rows = np.array(found, dtype=np.int32).reshape(-1, width)
         index_map = space.dofmap.index_map
         names = index_map.local_to_global(rows.ravel()).reshape(-1, width)
-        everything = body.comm.allgather((np.array(order, dtype=int), names))
+        everything = body.comm.allgather((order, names))
         order, names = (np.concatenate([part[i] for part in everything]) for i in (0, 1))
         names = names[np.argsort(order)]
         self.nodes = Nodes(body.comm, space, body.block, dofs.reshape(-1, 3), names)
@@ -158,11 +152,7 @@ class Crests:
         corners = grid.points[vertices]
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         share = np.repeat(np.abs(across[:, 1]) / 6.0, 3)
-        original = compat.original_cells(body.mesh)
-        n_owned = body.mesh.topology.index_map(3).size_local
-        here = np.flatnonzero(np.isin(pairs[:, 0], original[:n_owned]))
-        order = np.argsort(original)
-        cells = order[np.searchsorted(original, pairs[here, 0], sorter=order)]
+        here, cells = body.faces.local(pairs, owned=True)
         nodes = np.array([space.dofmap.cell_dofs(cell)[FACET_VERTICES[facet]]
                           for cell, facet in zip(cells, pairs[here, 1], strict=True)], np.int32)
         names = space.dofmap.index_map.local_to_global(nodes.ravel())
