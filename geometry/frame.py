@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .section import Circle, Rectangle, Section
+from .section import Circle, Lattice, Rectangle, Section
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,8 @@ class Frame:
     kinds : (m,) int array
         Index of each bar's kind in ``names``.
     names : tuple of str
-        ``shaft``, ``boss``, ``pivot``, ``centre_pivot``, ``socket``, ``arm``, ``root``, ``tail``.
+        ``shaft``, ``boss``, ``pivot``, ``centre_pivot``, ``socket``, ``arm``, ``root``, ``tail``;
+        of links ``root``, ``cell``, ``tail``.
     axes : (m, 3, 3) array
         Rows e1 (along the bar), e2, e3 of each bar's local axes.
     sections : tuple of mappings, one a rib
@@ -72,7 +73,8 @@ class Frame:
 
     def half_heights(self) -> np.ndarray:
         """Return half the height in mm of each bar, shape (m,); NaN where a bar only stiffens."""
-        half = {Rectangle: lambda s: s.width / 2.0, Circle: lambda s: s.diameter / 2.0}
+        half = {Rectangle: lambda s: s.width / 2.0, Circle: lambda s: s.diameter / 2.0,
+                Lattice: lambda s: s.height / 2.0}
         return self._of_each_bar(lambda s: half.get(type(s), lambda _: np.nan)(s))
 
     def lengths(self) -> np.ndarray:

@@ -14,8 +14,10 @@ import numpy as np
 
 from morphing_wing.errors import InputError
 
+from .frame import Frame, local_axes
 from .rib import HALF, RibGeometry
 from .rib_solid import Bar, Pivot, meshed
+from .section import Lattice
 from .tetmesh import TetMesh
 
 CUT = 0.25
@@ -68,6 +70,31 @@ def cut(rib: RibGeometry, layer: int, number: int) -> Cut:
     across = np.array([-along[1], along[0], 0.0])
     return Cut(layer, start + CUT * (end - start), along, across, 0.5 * rib.shaft_width,
                0.5 * rib.shaft_thickness)
+
+
+def axis_points(rib: RibGeometry) -> np.ndarray:
+    """Return x in mm of the root, the middles of the cuts and the tail, shape (n + 2,)."""
+    n = rib.n_cells
+    return rib.pitch * np.array([0.0, *(np.arange(n) + CUT), n])
+
+
+def piece_of(link: int, n_cells: int) -> str:
+    """Return which piece lies between the axis points ``link`` and ``link + 1``."""
+    return PIECES[(link > 0) + (link == n_cells)]
+
+
+def link_frame(rib: RibGeometry) -> Frame:
+    """Return the links between the axis points, with the volume of all bars shared among them."""
+    bars, n = rib.frame(), rib.n_cells
+    points = np.zeros((n + 2, 3))
+    points[:, 0] = axis_points(rib)
+    links = np.arange(n + 1)[:, None] + [0, 1]
+    whole = Lattice(float(bars.areas() @ bars.lengths()) / rib.length, rib.height + rib.shaft_width)
+    return Frame(
+        points=points, bars=links, names=PIECES, axes=local_axes(points, links),
+        kinds=np.array([PIECES.index(piece_of(link, n)) for link in range(n + 1)]),
+        sections=(dict.fromkeys(PIECES, whole),), ribs=np.zeros(n + 1, dtype=int),
+        roots=np.array([0]), tails=np.array([n + 1]))
 
 
 def one_cell(rib: RibGeometry) -> RibGeometry:

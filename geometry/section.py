@@ -104,6 +104,17 @@ class Stiffened:
         return np.zeros_like(N)
 
 
+@dataclass(frozen=True)
+class Lattice:
+    """What a link of many bars has in common with a bar: no stiffness that a section could tell.
+
+    ``area`` is their volume over the link's length in mm^2, ``height`` from face to face in mm.
+    """
+
+    area: float
+    height: float
+
+
 def torsion_constant(width: float, depth: float) -> float:
     r"""Return Saint-Venant's torsion constant of a rectangle, in mm^4.
 

@@ -24,3 +24,12 @@ def deflection_line(displacement: np.ndarray, lever: np.ndarray) -> float:
         Displacement of the tip, and undeformed vector to it from the root, both (3,) in mm.
     """
     return float(np.degrees(np.arctan2(-displacement[1], np.linalg.norm(lever))))
+
+
+def turned_x(theta: np.ndarray) -> np.ndarray:
+    """Return where the rotation vector ``theta`` turns the direction x, shape (3,)."""
+    angle = float(np.linalg.norm(theta))
+    a = np.sinc(angle / np.pi)
+    b = 0.5 * np.sinc(angle / (2.0 * np.pi)) ** 2
+    x = np.array([1.0, 0.0, 0.0])
+    return x + a * np.cross(theta, x) + b * np.cross(theta, np.cross(theta, x))

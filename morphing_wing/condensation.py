@@ -16,7 +16,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from . import blas
-from .cut_fields import SIZE, fields
+from .cut_fields import COLUMNS, HELD, MIRRORED, fields
 from .geometry.rib import RibGeometry
 from .geometry.rib_cell import PIECES, Cut, cuts, one_cell, rib_piece
 from .materials import Elastic
@@ -43,7 +43,7 @@ class Condensed:
 
 
 def condensed(
-    comm: MPI.Comm, rib: RibGeometry, nu: float, around: int, prefix: str
+    comm: MPI.Comm, rib: RibGeometry, nu: float, around: int, prefix: str, parity: int = MIRRORED
 ) -> Condensed:
     """Return the condensed pieces of a rib; kept for ribs that differ in cells alone. Collective.
 
@@ -59,11 +59,13 @@ def condensed(
         Elements around a cylinder, see `morphing_wing.geometry.rib_solid`.
     prefix
         Of the factorisation's PETSc options.
+    parity
+        Of the fields, see `morphing_wing.cut_fields`.
     """
-    key = (one_cell(rib), nu, around, comm.size)
+    key = (one_cell(rib), nu, around, parity, comm.size)
     # Ranks may have been together with others when they condensed.
     if not all(comm.allgather(key in _kept)):
-        found = {piece: _piece(comm, rib, piece, nu, around, prefix) for piece in PIECES}
+        found = {piece: _piece(comm, rib, piece, nu, around, prefix, parity) for piece in PIECES}
         _kept[key] = Condensed({name: matrix for name, (matrix, _) in found.items()},
                                sum(dofs for _, dofs in found.values()))
     return _kept[key]
@@ -73,29 +75,33 @@ _kept: dict[tuple, Condensed] = {}
 
 
 def _piece(
-    comm: MPI.Comm, rib: RibGeometry, piece: str, nu: float, around: int, prefix: str
+    comm: MPI.Comm, rib: RibGeometry, piece: str, nu: float, around: int, prefix: str, parity: int
 ) -> tuple[np.ndarray, int]:
     """Return a piece's stiffness and its number of unknowns."""
     grid = comm.bcast(on_root(comm, lambda: rib_piece(rib, piece, around)))
-    held = [name for name in ("root", "tail") if name in grid.facets]
-    body = ResinBody(comm, grid, Elastic(1.0, nu), held, {"symmetry": 2})
+    held = [(name, axis) for name in ("root", "tail") if name in grid.facets for axis in range(3)]
+    held += [("symmetry", axis) for axis in HELD[parity]]
+    body = ResinBody(comm, grid, Elastic(1.0, nu), held)
     system = EquilibriumSystem(comm, [body.block])
     system.set_energies([body.energy], [None])
-    rows, moved = _prescribed(body, cuts(rib, piece))
+    rows, moved = _prescribed(body, cuts(rib, piece), parity)
     return comm.bcast(_schur(system.tangent(), rows, moved, prefix)), system.size
 
 
-def _prescribed(body: ResinBody, sections: Mapping[str, Cut]) -> tuple[np.ndarray, np.ndarray]:
+def _prescribed(
+    body: ResinBody, sections: Mapping[str, Cut], parity: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Return this rank's unknowns in the sections, and what the coefficients move of each."""
     space = body.function.function_space
     places = space.tabulate_dof_coordinates()
     ends = sorted({name.split("_")[0] for name in sections})
-    table = np.full((len(body.block.numbers), len(ends) * SIZE), np.nan)
+    size = len(COLUMNS[parity])
+    table = np.full((len(body.block.numbers), len(ends) * size), np.nan)
     for name, section in sections.items():
         dofs = body.faces.held(space, [(name, axis) for axis in range(3)])
-        first = SIZE * ends.index(name.split("_")[0])
+        first = size * ends.index(name.split("_")[0])
         table[dofs] = 0.0
-        table[dofs, first : first + SIZE] = fields(section, places[dofs // 3])[
+        table[dofs, first : first + size] = fields(section, places[dofs // 3], parity)[
             np.arange(len(dofs)), dofs % 3]
     free = np.setdiff1d(body.block.owned, body.block.constrained)
     free = free[np.isfinite(table[free, 0])]

@@ -78,6 +78,6 @@ def bar_radii(frame: Frame) -> np.ndarray:
     What only joins (bosses and sockets, arms, root and tail) may be stiff without being thick: it
     is drawn as thin as the thinnest bar.
     """
-    radius = np.sqrt(frame.stiffness(1.0, 0.0)[:, 0] / np.pi)  # E = 1 MPa: EA is the area
+    radius = np.sqrt(frame.areas() / np.pi)
     bars = np.isin(frame.kinds, [i for i, name in enumerate(frame.names) if name in _BARS])
-    return np.where(bars, radius, radius[bars].min())
+    return np.where(bars, radius, radius[bars].min()) if bars.any() else radius

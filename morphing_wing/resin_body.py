@@ -39,10 +39,8 @@ class ResinBody:
         Mesh with named faces; the same on every rank.
     material
         Resin.
-    clamped
-        Faces whose points do not move.
-    symmetry
-        Faces that stay in their plane: mapping of name to axis (0, 1, 2).
+    held
+        Pairs of a face and the axis (0, 1, 2) along which its points do not move.
 
     Attributes
     ----------
@@ -51,15 +49,13 @@ class ResinBody:
     """
 
     def __init__(
-        self, comm: MPI.Comm, grid: TetMesh, material: Elastic, clamped: Sequence[str] = (),
-        symmetry: dict[str, int] | None = None,
+        self, comm: MPI.Comm, grid: TetMesh, material: Elastic,
+        held: Sequence[tuple[str, int]] = (),
     ) -> None:
         self.comm, self.grid, self.material = comm, grid, material
         self.mesh = compat.create_mesh(comm, "tetrahedron", grid.cells, grid.points)
         self.faces = Faces(self.mesh, grid.facets)
         self.function = fem.Function(compat.vector_space(self.mesh, 2), name="ribs")
-        held = [(face, axis) for face in clamped for axis in range(3)]
-        held += list((symmetry or {}).items())
         self.block = Block(self.function, self.faces.held(self.function.function_space, held))
         self.iterate = Iterate(self.function)
         self.X = ufl.SpatialCoordinate(self.mesh)

@@ -12,13 +12,13 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from . import compat
-from .angles import deflection_line, rotation_about_z
+from .angles import deflection_line, rotation_about_z, turned_x
 from .drawing import Drawing, bar_radii, default_drawing
 from .errors import is_count, require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
 from .forms.gravity import mass_density
-from .frame import BeamFrame, turned_x
+from .frame import BeamFrame
 from .geometry.rib import RibGeometry
 from .iterate import Iterate
 from .ladder import Pick, pick

@@ -62,9 +62,9 @@ class SolidRibs:
         plates = {f"tail_{i}": tails[i] for i in each}
         if not clamped:
             plates |= {f"root_{i}": roots[i] for i in each}
-        self.body = ResinBody(
-            comm, grid, material, clamped=[f"root_{i}" for i in each] if clamped else (),
-            symmetry={f"symmetry_{i}": 2 for i in each} if half else None)
+        held = [(f"root_{i}", axis) for i in each for axis in range(3)] if clamped else []
+        held += [(f"symmetry_{i}", 2) for i in each] if half else []
+        self.body = ResinBody(comm, grid, material, held)
         self.ends = RigidEnds(self.body, plates, held=_OUT_OF_PLANE if half else ())
         self.function = self.body.function
         self.motion, self.motion_mesh = self.ends.motion, self.ends.mesh

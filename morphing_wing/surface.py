@@ -9,9 +9,9 @@ import numpy as np
 from mpi4py import MPI
 
 from . import compat
+from .bar_mesh import BarMesh
 from .blocks import Block
 from .elastomer import Elastomer
-from .frame import BeamFrame
 from .geometry.facets import node_areas
 from .geometry.tetmesh import FACET_VERTICES
 from .resin_body import ResinBody
@@ -112,7 +112,7 @@ class Bars:
         Half the height of the thickest bar at it, mm.
     """
 
-    def __init__(self, ribs: BeamFrame) -> None:
+    def __init__(self, ribs: BarMesh) -> None:
         """Take the bars that have a height."""
         radius, lengths = ribs.frame.half_heights(), ribs.frame.lengths()
         space = ribs.function.function_space
@@ -121,7 +121,7 @@ class Bars:
         chosen = [cell for cell, bar in enumerate(ribs.bars[:n_owned]) if not np.isnan(radius[bar])]
         nodes = np.array([space.dofmap.cell_dofs(cell) for cell in chosen], dtype=np.int32)
         names = index_map.local_to_global(nodes.ravel())
-        radii = np.repeat(radius[ribs.bars[chosen]], 3)
+        radii = np.repeat(radius[ribs.bars[chosen]], nodes.size // max(len(chosen), 1))
         names, radii = (np.concatenate(part) for part in zip(
             *ribs.comm.allgather((names, radii)), strict=True))
         six = np.arange(len(ribs.function.x.array)).reshape(-1, 6)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .angles import deflection_line, rotation_about_x, rotation_about_z
+from .angles import deflection_line, rotation_about_x, rotation_about_z, turned_x
 from .elastomer import Elastomer
-from .frame import BeamFrame, turned_x
+from .frame import BeamFrame
 from .geometry.wing import WingGeometry
 from .solid_ribs import SolidRibs
 

@@ -8,9 +8,10 @@ from mpi4py import MPI
 from scipy.spatial.transform import Rotation
 
 from morphing_wing import compat
+from morphing_wing.angles import turned_x
 from morphing_wing.forms.beam import rotation, tangent_map
 from morphing_wing.forms.cable import cable_potential
-from morphing_wing.frame import BeamFrame, turned_x
+from morphing_wing.frame import BeamFrame
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.materials import RESIN, Elastic
 from morphing_wing.verification.cantilever import Cantilever
