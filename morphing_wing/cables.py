@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import compat
+from .bar_mesh import BarMesh
 from .forms.beam import displacement
 from .forms.cable import cable_potential
-from .frame import BeamFrame
 from .solid_ribs import SolidRibs
 
 __all__ = ["Cables"]
@@ -31,7 +31,7 @@ class Cables:
         UFL functional in N mm.
     """
 
-    def __init__(self, ribs: BeamFrame | SolidRibs, guide: Sequence[float]) -> None:
+    def __init__(self, ribs: BarMesh | SolidRibs, guide: Sequence[float]) -> None:
         self._comm = ribs.comm
         self.tension = compat.constant(ribs.motion_mesh, 0.0)
         place = compat.constant(ribs.motion_mesh, guide)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .adhesive import GluedPatches
+from .bar_mesh import BarMesh
 from .elastomer import Elastomer
-from .frame import BeamFrame
 from .geometry.patches import joined, patch_points
 from .geometry.wing import WingGeometry
 from .materials import Adhesive
@@ -25,7 +25,7 @@ class Glue(GluedPatches):
     """
 
     def __init__(
-        self, body: Elastomer, ribs: BeamFrame | SolidRibs, wing: WingGeometry, law: Adhesive
+        self, body: Elastomer, ribs: BarMesh | SolidRibs, wing: WingGeometry, law: Adhesive
     ) -> None:
         roots = wing.rib_roots()
         ends = {"foot": ("root", ["rear_wall"], roots)}

@@ -15,6 +15,7 @@ from .progress import Progress
 from .resin_stress import ResinStress
 from .scene import Scene
 from .shaft_gap import ShaftGap
+from .solid_ribs import SolidRibs
 from .wing import Wing
 
 __all__ = ["Limits", "actuated"]
@@ -28,9 +29,9 @@ class Limits:
     ``z`` where that is before the deformation. ``material_stability`` is the least of
     `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
     built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
-    von Mises' stress in the resin, is there where a scene has ribs, and ``shaft_gap_mm``, how
-    far apart neighbouring shafts of a layer are. `morphing_wing.passed.passed` says in words from
-    which load on a limit is passed.
+    von Mises' stress in the resin, is there where a scene has ribs that are frames or solids, and
+    ``shaft_gap_mm``, how far apart neighbouring shafts of a layer are. `morphing_wing.passed.passed`
+    says in words from which load on a limit is passed.
 
     Parameters
     ----------
@@ -49,9 +50,10 @@ class Limits:
         ribs, self._stress = getattr(scene, "ribs", None), None
         if isinstance(ribs, BeamFrame):
             self._stress = BeamStress(ribs, ribs.material)
-        elif ribs is not None:
+        elif isinstance(ribs, SolidRibs):
             self._stress = ResinStress(ribs.body)
-        self._gap = None if ribs is None else ShaftGap(ribs, *scene.rib_places())
+        if self._stress is not None:
+            self._gap = ShaftGap(ribs, *scene.rib_places())
 
     def __call__(self, state: State) -> None:
         """Measure the present state."""

@@ -55,7 +55,7 @@ class SceneFile:
         Its geometry, mm and degrees.
     materials
         Keyword arguments of the scene: ``material``, or ``elastomer`` and ``resin``, of a wing
-        ``adhesive`` and ``contact`` too.
+        ``adhesive``, ``contact`` and ``rib_model`` too.
     loads
         Keyword arguments of its load method: ``upper`` and ``lower`` in MPa, ``cable`` in N,
         ``torque`` in N mm, each a tuple of one value or of one value a load step.
@@ -173,6 +173,8 @@ def materials_of(keys: Any, geometry: Any) -> dict[str, Any]:
             materials["resin"] = Elastic(**({"E": RESIN.E, "nu": RESIN.nu} | keys.resin.given()))
     if keys.scene == "wing":
         materials["contact"] = keys.contact
+        if keys.rib_model is not None:
+            materials["rib_model"] = keys.rib_model
         if keys.adhesive is not None:
             if geometry.rib is None:
                 raise InputError('adhesive: must be left out where rib is "none"')

@@ -181,6 +181,7 @@ class WingFile(Keys):
     fidelity: Text | None = None
     tolerance: float | None = None
     contact: bool = True
+    rib_model: Literal["frame", "cell", "solid"] | None = None
     geometry: WingKeys
     adhesive: AdhesiveKeys | None = None
     elastomer: ElastomerKeys = ElastomerKeys()

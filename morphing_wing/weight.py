@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from . import compat
+from .bar_mesh import BarMesh
 from .elastomer import Elastomer
 from .forms.gravity import gravity_potential, specific_weight
-from .frame import BeamFrame
 from .solid_ribs import SolidRibs
 
 
@@ -20,7 +20,7 @@ class Weight:
         UFL functionals in N mm, one a mesh.
     """
 
-    def __init__(self, body: Elastomer, ribs: BeamFrame | SolidRibs | None) -> None:
+    def __init__(self, body: Elastomer, ribs: BarMesh | SolidRibs | None) -> None:
         self._comm = body.comm
         weight = compat.constant(body.mesh, specific_weight(body.material.density))
         rises = [gravity_potential(weight, body.u) * body.volume_measure()]

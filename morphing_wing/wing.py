@@ -11,6 +11,7 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
+from .bar_mesh import BarMesh
 from .cables import Cables
 from .chambers import Chambers
 from .drawing import Drawing
@@ -27,6 +28,7 @@ from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
 from .ladder import AUTO, Pick, pick
+from .linked_ribs import LinkedRibs
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -48,20 +50,23 @@ class WingFidelity:
     ----------
     meshing, element
         Of the elastomer.
-    around
-        Elements around a pivot of solid ribs; None: the ribs are frames.
+    rib_model
+        One of `RIB_MODELS`.
     """
 
     meshing: WingMeshing
     element: str
-    around: int | None = None
+    rib_model: str = "frame"
 
 
 FIDELITIES = {
     "draft": WingFidelity(WingMeshing.fine(), "Q1 enhanced"),
     "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
-    "reference": WingFidelity(WingMeshing.graded(), "Q2 reduced", around=6),
+    "reference": WingFidelity(WingMeshing.graded(), "Q2 reduced", "solid"),
 }
+
+RIB_MODELS = {"frame": None, "cell": 18, "solid": 6}
+"""How ribs are modelled, and with how many elements around a pivot."""
 
 
 class Wing(TrimmedWing):
@@ -81,9 +86,11 @@ class Wing(TrimmedWing):
         Communicator; all ranks of MPI by default.
     meshing, element
         Replace those of the fidelity.
+    rib_model
+        Of any fidelity "frame" (beams), "cell" (chains of one cell's condensed solid) or "solid" in
+        place of its own.
     around
-        Elements around a pivot: makes the ribs solids in any fidelity; None: as the fidelity has
-        them.
+        Elements around a pivot of solid ribs or cells; None: 6 and 18.
     contact
         Whether the pocket's sides and the ribs press against each other. Without, ``contact`` in
         the path's table says from where on they pass through each other.
@@ -117,23 +124,29 @@ class Wing(TrimmedWing):
         adhesive: Adhesive | None = None,
         tolerance: float | None = None,
         around: int | None = None,
+        rib_model: str | None = None,
     ) -> None:
         picked = pick("wing", fidelity, tolerance, geometry.n_cells)
-        if around is not None:
-            require(is_count(around) and around >= 4, "around", around, "",
-                    "a whole number of at least 4")
-        if any(given is not None for given in (meshing, element, around)):
-            require(fidelity != AUTO, "fidelity", fidelity, "", "a rung's name with a mesh or an "
-                    "element of one's own")
+        if any(given is not None for given in (meshing, element, around, rib_model)):
+            require(fidelity != AUTO, "fidelity", fidelity, "", "a rung's name with a mesh, an "
+                    "element or a rib_model of one's own")
             picked = Pick(picked.fidelity, None)
         rung = FIDELITIES[picked.fidelity]
+        model = rung.rib_model if rib_model is None else rib_model
+        require(model in RIB_MODELS, "rib_model", model, "", f"one of {', '.join(RIB_MODELS)}")
+        if around is None:
+            around = RIB_MODELS[model]
+        else:
+            require(model != "frame" and is_count(around) and around >= 4, "around", around, "",
+                    'a whole number of at least 4, with rib_model "cell" or "solid"')
         prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
         if prestretch is not None:
             self.load_names = (*self.load_names, "prestretch_part")
         super().__init__(picked, comm)
         self.geometry, self.elastomer, self.resin = geometry, elastomer, resin
         self._options_prefix = options_prefix
-        self.ribs: BeamFrame | SolidRibs | None = None
+        self.rib_model = model
+        self.ribs: BarMesh | SolidRibs | None = None
         self.glue: Glue | None = None
         self.body = Elastomer(
             self.comm, wing_mesh(geometry, meshing or rung.meshing), elastomer,
@@ -142,7 +155,7 @@ class Wing(TrimmedWing):
         )
         unknowns = [self.body.block]
         if geometry.rib is not None:
-            self.ribs = _ribs(self.comm, geometry, resin, around or rung.around)
+            self.ribs = self._made_ribs(around)
             law = adhesive or Adhesive(geometry.glue_stiffness)
             self.glue = Glue(self.body, self.ribs, geometry, law)
             unknowns += self.ribs.unknowns
@@ -233,6 +246,7 @@ class Wing(TrimmedWing):
             "resin": asdict(self.resin),
             "adhesive": asdict(self.glue.law) if self.glue is not None else None,
             "contact": self.contact is not None,
+            "rib_model": self.rib_model if self.ribs is not None else None,
             "element": self.body.element.name,
         }
 
@@ -254,6 +268,15 @@ class Wing(TrimmedWing):
             self.glue.recall(memory["glue"])
 
     # -- what the scene is made of ------------------------------------------------------------
+
+    def _made_ribs(self, around: int | None) -> BarMesh | SolidRibs:
+        rib, roots = self.geometry.rib, self.geometry.rib_roots()
+        if self.rib_model == "solid":
+            return SolidRibs(self.comm, rib, self.resin, around, roots)
+        if self.rib_model == "cell":
+            return LinkedRibs(self.comm, rib, self.resin, around, roots,
+                              prefix=self._options_prefix + "ribs_")
+        return BeamFrame(self.comm, join([rib.frame().placed(x) for x in roots]), self.resin)
 
     def _iterates(self) -> list[Iterate]:
         return [part.iterate for part in self._parts() if part.iterate is not None]
@@ -331,11 +354,3 @@ class Wing(TrimmedWing):
             gap = self.pocket.smallest_gap()
             found |= {"gap_mm": gap, "contact": float(gap < 0.0)}
         return found
-
-
-def _ribs(
-    comm: MPI.Comm, wing: WingGeometry, resin: Elastic, around: int | None
-) -> BeamFrame | SolidRibs:
-    if around is not None:
-        return SolidRibs(comm, wing.rib, resin, around, wing.rib_roots())
-    return BeamFrame(comm, join([wing.rib.frame().placed(x) for x in wing.rib_roots()]), resin)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .angles import deflection_line, rotation_about_x, rotation_about_z, turned_x
+from .bar_mesh import BarMesh
 from .elastomer import Elastomer
-from .frame import BeamFrame
 from .geometry.wing import WingGeometry
 from .solid_ribs import SolidRibs
 
@@ -14,7 +14,7 @@ __all__ = ["wing_angles"]
 
 
 def wing_angles(
-    wing: WingGeometry, body: Elastomer, ribs: BeamFrame | SolidRibs | None
+    wing: WingGeometry, body: Elastomer, ribs: BarMesh | SolidRibs | None
 ) -> dict[str, float]:
     """Return all angles in degrees, positive downwards, of the present state. Collective.
 
@@ -51,7 +51,7 @@ def _trailing_edge(wing: WingGeometry, body: Elastomer) -> tuple[float, float]:
             rotation_about_z(chord + edge - rear))
 
 
-def _ribs(wing: WingGeometry, ribs: BeamFrame | SolidRibs) -> dict[str, float]:
+def _ribs(wing: WingGeometry, ribs: BarMesh | SolidRibs) -> dict[str, float]:
     """Return of each rib its tail's rotation and the rotation of the line from root to tail."""
     found = {}
     length = np.array([wing.rib.length, 0.0, 0.0])

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .bar_mesh import BarMesh
 from .drawing import Cut, Drawing, bar_radii, default_drawing
-from .frame import BeamFrame
 
 if TYPE_CHECKING:
     from .path import State
@@ -21,7 +21,7 @@ def wing_drawing(scene: Wing, state: State) -> Drawing:
     """Return how to draw a wing that stands in a state. Collective."""
     wing, cuts, cables, radius = scene.geometry, [Cut("x", 0.25 * scene.geometry.chord)], [], {}
     if scene.ribs is not None:
-        if isinstance(scene.ribs, BeamFrame):
+        if isinstance(scene.ribs, BarMesh):
             radius = {"ribs": bar_radii(scene.ribs.frame)}
         roots = wing.rib_roots()
         tails = roots + np.array([wing.rib.length, 0.0, 0.0])
