@@ -30,7 +30,7 @@ class Limits:
     `Yeoh.stability` at the nodes: at 0 and below the material's law gives way. Where a skin is
     built in stretched, stretches count from there on and the law is not judged. ``rib_stress_MPa``,
     von Mises' stress in the resin, is there where a scene has ribs that are frames or solids, and
-    ``shaft_gap_mm``, how far apart neighbouring shafts of a layer are. `morphing_wing.passed.passed`
+    ``shaft_gap_mm``, how far apart neighbouring shafts of a layer are. `passed.passed`
     says in words from which load on a limit is passed.
 
     Parameters

@@ -117,6 +117,17 @@ def test_wing_with_ribs_skin_cables_and_pressure_is_the_same():
     compare(wing, without=("gap_mm",))
 
 
+@pytest.mark.quick
+def test_wing_with_ribs_of_condensed_cells_is_the_same():
+    geometry = replace(GEOMETRY, skin_thickness=None, rib=replace(GEOMETRY.rib, n_cells=3))
+
+    def run(comm):
+        return small_wing(comm, geometry=geometry, rib_model="cell", around=6).actuate(
+            upper=0.01, cable=0.2)
+
+    compare(run)
+
+
 def test_heavy_wing_with_a_slit_skin_and_a_tip_wall_is_the_same():
     geometry = replace(GEOMETRY, skin_root="free", tip_wall=True, skin_slit="lower")
 
