@@ -89,7 +89,8 @@ def link_frame(rib: RibGeometry) -> Frame:
     points = np.zeros((n + 2, 3))
     points[:, 0] = axis_points(rib)
     links = np.arange(n + 1)[:, None] + [0, 1]
-    whole = Lattice(float(bars.areas() @ bars.lengths()) / rib.length, rib.height + rib.pivot_diameter)
+    area = float(bars.areas() @ bars.lengths()) / rib.length
+    whole = Lattice(area, rib.height + rib.pivot_diameter)
     return Frame(
         points=points, bars=links, names=PIECES, axes=local_axes(points, links),
         kinds=np.array([PIECES.index(piece_of(link, n)) for link in range(n + 1)]),

@@ -83,8 +83,8 @@ class State:
 
         if not self.fields:
             raise InputError(f"state at {load_words(self.load)}: has no fields to draw, of the "
-                             "states before a restart only the last one's are kept, and a chain of "
-                             "condensed cells or a formula has none")
+                             "states before a restart only the last one's are kept, and a formula "
+                             "has none")
         return render(self.scene, self, file)
 
 

@@ -174,6 +174,8 @@ def materials_of(keys: Any, geometry: Any) -> dict[str, Any]:
     if keys.scene == "wing":
         materials["contact"] = keys.contact
         if keys.rib_model is not None:
+            if geometry.rib is None:
+                raise InputError('rib_model: must be left out where rib is "none"')
             materials["rib_model"] = keys.rib_model
         if keys.adhesive is not None:
             if geometry.rib is None:

@@ -184,6 +184,16 @@ def test_an_adhesive_takes_its_stiffness_from_the_geometry_unless_given():
     assert read.materials["contact"] is True
 
 
+def test_the_ribs_model_is_the_files_or_the_fidelitys():
+    text = GLUED.format("", "")
+    assert "rib_model" not in scene(text).materials
+    assert scene('rib_model = "cell"\n' + text).materials["rib_model"] == "cell"
+    with pytest.raises(InputError, match="rib_model = 'beam'"):
+        scene('rib_model = "beam"\n' + text)
+    with pytest.raises(InputError, match="rib_model: must be left out where rib is"):
+        scene('rib_model = "cell"\n' + GLUED.format('rib = "none"', "").replace("[adhesive]", ""))
+
+
 @pytest.mark.parametrize("geometry, law, said", [
     ("", 'strength = "1 MPa"', "adhesive.toughness: is missing, must be given with strength"),
     ("", 'toughness = "1 N/mm"', "adhesive.toughness: is given without strength"),

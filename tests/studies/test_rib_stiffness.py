@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from morphing_wing import condensed_rib
+from morphing_wing.errors import InputError
 from morphing_wing.geometry.frame import Frame, local_axes
 from morphing_wing.geometry.rib import KINDS, RibGeometry
 from morphing_wing.geometry.section import Rectangle
@@ -126,6 +128,15 @@ def test_the_third_layer_makes_the_rib_stiffer_spanwise_than_chordwise():
     three, two = (stiffness(replace(SQUARE, layers=n)) for n in (3, 2))
     assert (three.anisotropy, two.anisotropy) == pytest.approx((1.474, 0.838), abs=1e-3)
     assert three.anisotropy_of_full_bar == pytest.approx(5.58, abs=0.01)
+
+
+def test_condensed_cells_are_stiffer_spanwise_than_a_frame_as_whole_solids_are(monkeypatch):
+    monkeypatch.setitem(condensed_rib.AROUND, "cell", 6)
+    cell, frame = (rib_stiffness(SQUARE, RESIN, MPI.COMM_SELF, kind) for kind in ("cell", "draft"))
+    assert cell.chordwise_bending == pytest.approx(frame.chordwise_bending, rel=0.03)
+    assert cell.anisotropy == pytest.approx(1.76, rel=0.03)  # a whole solid's, bench/
+    with pytest.raises(InputError, match="fidelity = 'standard': must be one of draft, cell"):
+        rib_stiffness(SQUARE, RESIN, MPI.COMM_SELF, "standard")
 
 
 def test_rotation_by_an_end_moment_grows_linearly_with_the_cells():
