@@ -10,6 +10,7 @@ Examples
 
 from .curve_file import BUILT_IN, read_test
 from .material_test import MaterialTest
-from .study import Calibration, calibrate
+from .result import Calibration
+from .study import calibrate
 
 __all__ = ["BUILT_IN", "Calibration", "MaterialTest", "calibrate", "read_test"]

@@ -16,7 +16,6 @@ exact for independent normal errors where the law is linear in its constants, el
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -26,12 +25,13 @@ import pandas as pd
 from scipy import linalg, stats
 from scipy.optimize import least_squares, nnls
 
-from .laws import Law, OgdenLaw
-from .material_test import MaterialTest
+from .laws import Law
+from .ogden import OgdenLaw
+from .points import Points
 from .stability import ranges
 from .stable_fit import Objective, is_stable, stable_values
 
-__all__ = ["Data", "Fit", "UndeterminedError", "fitted", "judged"]
+__all__ = ["Fit", "UndeterminedError", "fitted", "judged"]
 
 CONFIDENCE = 0.95
 STEEPEST = 30.0
@@ -43,46 +43,6 @@ INDISTINCT = 1e-10
 
 class UndeterminedError(ValueError):
     """The data do not determine a law's constants; the message is the end of a sentence."""
-
-
-@dataclass(frozen=True)
-class Data:
-    """All points that are used, of all tests, each with its weight.
-
-    Attributes
-    ----------
-    parts
-        Of each test its mode and its stretches.
-    stress
-        Nominal stress in MPa, all tests one after another.
-    weights
-        omega of each point.
-    """
-
-    parts: tuple[tuple[str, np.ndarray], ...]
-    stress: np.ndarray
-    weights: np.ndarray
-
-    @classmethod
-    def of(cls, tests: Sequence[MaterialTest]) -> Data:
-        """Gather the used points of tests."""
-        points = [test.points for test in tests]
-        sizes = [stress.size for _, stress in points]
-        whole = sum(sizes) / sum(test.weight for test in tests)
-        weights = [np.full(n, test.weight * whole / n)
-                   for n, test in zip(sizes, tests, strict=True)]
-        parts = tuple((test.mode, stretch)
-                      for test, (stretch, _) in zip(tests, points, strict=True))
-        return cls(parts, np.concatenate([stress for _, stress in points]),
-                   np.concatenate(weights))
-
-    def computed(self, law: Law, values: Any) -> np.ndarray:
-        """Return a law's nominal stresses in MPa at all points."""
-        return np.concatenate([law.stress(values, *part) for part in self.parts])
-
-    def slopes(self, law: Law, values: Any) -> np.ndarray:
-        """Return their derivatives by the constants, of shape (points, constants)."""
-        return np.concatenate([law.stress_slopes(values, *part) for part in self.parts])
 
 
 @dataclass(frozen=True)
@@ -134,7 +94,7 @@ class Fit:
         return ranges(self.law, self.values)
 
 
-def fitted(law: Law, data: Data, stable: float | None = None) -> Fit:
+def fitted(law: Law, data: Points, stable: float | None = None) -> Fit:
     """Find a law's constants by weighted least squares.
 
     Parameters
@@ -167,7 +127,7 @@ def fitted(law: Law, data: Data, stable: float | None = None) -> Fit:
 
 
 def judged(
-    law: Law, values: Any, data: Data, fitted: bool = True, held: bool = False
+    law: Law, values: Any, data: Points, fitted: bool = True, held: bool = False
 ) -> Fit:
     """Return given constants with how well they describe the data."""
     values = np.asarray(values, dtype=float)
@@ -193,12 +153,12 @@ def judged(
         float(centred[1:] @ centred[:-1]) / spread if spread > 0.0 else 0.0)
 
 
-def _linear(law: Law, data: Data) -> np.ndarray:
+def _linear(law: Law, data: Points) -> np.ndarray:
     """Return the constants of a law that is linear in them."""
     return _solved(data.slopes(law, np.zeros(len(law.constants))), data)[0]
 
 
-def _solved(slopes: np.ndarray, data: Data) -> tuple[np.ndarray, float]:
+def _solved(slopes: np.ndarray, data: Points) -> tuple[np.ndarray, float]:
     """Return the weighted least squares' solution, of columns scaled alike, and its residual."""
     root = np.sqrt(data.weights)
     scale = np.sqrt(data.weights @ slopes**2)
@@ -210,39 +170,42 @@ def _solved(slopes: np.ndarray, data: Data) -> tuple[np.ndarray, float]:
     return found / scale, float(np.sum((matrix @ found - root * data.stress) ** 2))
 
 
-def _nonlinear(law: Law, data: Data) -> np.ndarray:
+def _nonlinear(law: Law, data: Points) -> np.ndarray:
     """Return Ogden's constants: moduli by linear least squares for many exponents, then all.
 
     Moduli are kept positive, which is Drucker's condition at every stretch. Else two terms run
     away, with exponents that become one and moduli that grow without bound against each other.
     """
     assert isinstance(law, OgdenLaw)
-    root, terms = np.sqrt(data.weights), law.terms
-    limits = np.repeat([[0.0, -STEEPEST], [math.inf, STEEPEST]], terms, axis=1)
-
-    def search(start: Any) -> Any:
-        return least_squares(
-            lambda values: root * (data.computed(law, values) - data.stress), start,
-            jac=lambda values: root[:, None] * data.slopes(law, values), x_scale="jac",
-            bounds=tuple(limits), xtol=1e-12, ftol=1e-12, gtol=1e-12, max_nfev=400)
-
+    terms, few = law.terms, data.thinned(300)
     fewer = _nonlinear(OgdenLaw(terms - 1), data) if terms > 1 else None
-    starts = _moduli_of_exponents(law, data)[: 4 if fewer is None else 3]
+    starts = _moduli_of_exponents(law, few)[: 4 if fewer is None else 3]
     if fewer is not None:
         moduli, exponents = np.split(fewer, 2)
         starts += [[*moduli, 0.02 * moduli.sum(), *exponents, more] for more in (-4.0, 1.0, 6.0)]
-    best = min((search(start) for start in starts), key=lambda end: end.cost)
-    found = best.x
-    if (np.abs(found[terms:]) > 0.999 * STEEPEST).any():
+    near = min((_searched(law, few, start) for start in starts), key=lambda end: end.cost)
+    best = _searched(law, data, near.x)
+    if (np.abs(best.x[terms:]) > 0.999 * STEEPEST).any():
         raise UndeterminedError(f"needs exponents beyond {STEEPEST:g}")
     if fewer is not None:
         off = data.computed(OgdenLaw(terms - 1), fewer) - data.stress
         if 2.0 * best.cost > (1.0 - 1e-4) * float(data.weights @ off**2):
             raise UndeterminedError("gains nothing by another term of positive modulus")
-    return law.in_order(found)
+    return law.in_order(best.x)
 
 
-def _moduli_of_exponents(law: OgdenLaw, data: Data) -> list[list[float]]:
+def _searched(law: Law, data: Points, start: Any) -> Any:
+    """Return scipy's answer from one start, moduli of at least 0 and bounded exponents."""
+    root = np.sqrt(data.weights)
+    lower = [0.0 if unit else -STEEPEST for unit in law.units]
+    upper = [math.inf if unit else STEEPEST for unit in law.units]
+    return least_squares(
+        lambda values: root * (data.computed(law, values) - data.stress), start,
+        jac=lambda values: root[:, None] * data.slopes(law, values), x_scale="jac",
+        bounds=(lower, upper), xtol=1e-12, ftol=1e-12, gtol=1e-12, max_nfev=400)
+
+
+def _moduli_of_exponents(law: OgdenLaw, data: Points) -> list[list[float]]:
     """Return constants to begin with, the best first: moduli of at least 0 for many exponents."""
     root, starts = np.sqrt(data.weights), []
     for exponents in law.exponents():
@@ -253,7 +216,7 @@ def _moduli_of_exponents(law: OgdenLaw, data: Data) -> list[list[float]]:
     return [start for _, start in sorted(starts)]
 
 
-def _inverse(law: Law, values: np.ndarray, data: Data) -> np.ndarray:
+def _inverse(law: Law, values: np.ndarray, data: Points) -> np.ndarray:
     """Return the inverse of J^T Omega J."""
     slopes = np.sqrt(data.weights)[:, None] * data.slopes(law, values)
     scale = np.linalg.norm(slopes, axis=0)

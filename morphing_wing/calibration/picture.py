@@ -20,7 +20,7 @@ from .stability import FARTHEST, stable_to
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .study import Calibration
+    from .result import Calibration
 
 __all__ = ["draw"]
 
@@ -62,8 +62,7 @@ def _mode(axes: Axes, found: Calibration, mode: str, looks: dict[str, Any]) -> N
     tests = [test for test in found.tests if test.mode == mode]
     used = np.concatenate([test.points[0] for test in tests or found.tests])
     low, high = min(used.min(), 1.0), max(used.max(), 1.0)
-    stretch = np.linspace(max(low - 0.05 * (high - low), 0.5 * low) if low < 1.0 else 1.0,
-                          high + 0.15 * (high - low), 300)
+    stretch = np.linspace(0.98 * low if low < 1.0 else 1.0, high + 0.15 * (high - low), 300)
     heights = []
     for name, fit in found.fits.items():
         stress = fit.law.stress(fit.values, mode, stretch)
@@ -85,7 +84,8 @@ def _mode(axes: Axes, found: Calibration, mode: str, looks: dict[str, Any]) -> N
         heights.append(test.points[1])
     axes.plot([], [], "o", color="#6b6b66", markersize=4.5, markerfacecolor="none",
               label="measured, used")
-    axes.plot([], [], "o", color="#c9c9c4", markersize=3.0, label="measured, not used")
+    if not all(test.used.all() for test in found.tests):
+        axes.plot([], [], "o", color="#c9c9c4", markersize=3.0, label="measured, not used")
     axes.plot([], [], "x", color="#555", markersize=9, markeredgewidth=2.2, label="unstable beyond")
     lowest, largest = (float(f(np.concatenate(heights))) for f in (np.min, np.max))
     axes.set_ylim(min(lowest, 0.0) * 1.1, largest * 1.2)
@@ -103,9 +103,11 @@ def _residuals(axes: Axes, found: Calibration, looks: dict[str, Any]) -> None:
         for test in found.tests:
             stretch, stress = test.points
             off = 1000.0 * (fit.law.stress(fit.values, test.mode, stretch) - stress)
-            several = {"marker": MARKERS[test.mode], "markersize": 4.0,
-                       "markevery": max(1, stretch.size // 12)} if len(found.tests) > 1 else {}
-            axes.plot(stretch, off, **looks[name] | several)
+            axes.plot(stretch, off, **looks[name] | (
+                {} if len(found.tests) == 1 else {
+                    "marker": MARKERS[test.mode], "markersize": 5.0,
+                    "markevery": max(1, stretch.size // 12)}
+                if fit is found.chosen or not fit.fitted else {"alpha": 0.4, "linewidth": 1.0}))
             if fit.fitted:
                 size = max(size, np.abs(off).max())
     axes.axhline(0.0, color="#999", linewidth=0.8, zorder=0.5)

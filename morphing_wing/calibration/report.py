@@ -12,12 +12,12 @@ from rich.table import Table
 from morphing_wing.terminal_tables import text_table
 
 from .deformation import MODES
+from .result import PAPER
 from .stability import CRITERIA, FARTHEST, stable_to
-from .study import PAPER
 
 if TYPE_CHECKING:
     from .fit import Fit
-    from .study import Calibration
+    from .result import Calibration
 
 __all__ = ["report"]
 

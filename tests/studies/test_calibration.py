@@ -10,10 +10,13 @@ from scipy import stats
 
 from morphing_wing.calibration import MaterialTest, calibrate
 from morphing_wing.calibration.deformation import MODES, principal
-from morphing_wing.calibration.fit import Data, UndeterminedError, fitted
-from morphing_wing.calibration.laws import MooneyRivlinLaw, OgdenLaw, YeohLaw
+from morphing_wing.calibration.fit import UndeterminedError, fitted
+from morphing_wing.calibration.laws import MooneyRivlinLaw, YeohLaw
+from morphing_wing.calibration.ogden import OgdenLaw
+from morphing_wing.calibration.points import Points
+from morphing_wing.calibration.result import PAPER
 from morphing_wing.calibration.stability import ENFORCED, margin
-from morphing_wing.calibration.study import LAWS, PAPER
+from morphing_wing.calibration.study import LAWS
 from morphing_wing.errors import InputError
 from morphing_wing.materials import DRAGON_SKIN_30
 from morphing_wing.scene_file import parse_scene
@@ -67,9 +70,9 @@ def test_known_constants_are_recovered_in_each_mode(law, values, mode):
     if mode == "planar" and not isinstance(law, YeohLaw):
         # I1 is I2 there, and exponents of either sign are the same law.
         with pytest.raises(UndeterminedError, match="has constants that .* not tell apart"):
-            fitted(law, Data.of([made(law, values, mode)]))
+            fitted(law, Points.of([made(law, values, mode)]))
         return
-    found = fitted(law, Data.of([made(law, values, mode)]))
+    found = fitted(law, Points.of([made(law, values, mode)]))
     assert found.values == pytest.approx(values, rel=2e-5)
     assert found.rms < 1e-8 and found.r2 == pytest.approx(1.0, abs=1e-10)
 
@@ -78,12 +81,12 @@ def test_all_modes_together_and_compression_recover_what_one_alone_would():
     law, values = MooneyRivlinLaw(), [0.1, 0.02]
     tests = [made(law, values, mode) for mode in MODES]
     tests.append(made(law, values, "uniaxial", np.linspace(0.95, 0.4, 12)))
-    assert fitted(law, Data.of(tests)).values == pytest.approx(values, rel=1e-9)
+    assert fitted(law, Points.of(tests)).values == pytest.approx(values, rel=1e-9)
 
 
 def test_interval_of_neo_hooke_is_the_closed_form():
     law, test = YeohLaw(1), made(YeohLaw(1), [0.12], noise=0.01)
-    found = fitted(law, Data.of([test]))
+    found = fitted(law, Points.of([test]))
     x, y = 2.0 * (STRETCH - STRETCH**-2), test.stress
     C10 = x @ y / (x @ x)
     error = np.sqrt(np.sum((y - C10 * x) ** 2) / 39 / (x @ x))
@@ -96,7 +99,7 @@ def test_interval_of_neo_hooke_is_the_closed_form():
                          ids=lambda part: getattr(part, "name", ""))
 def test_95_of_100_intervals_hold_the_truth_and_errors_are_the_scatter(law, values):
     n = 500
-    fits = [fitted(law, Data.of([made(law, values, noise=0.01, seed=seed)])) for seed in range(n)]
+    fits = [fitted(law, Points.of([made(law, values, noise=0.01, seed=seed)])) for seed in range(n)]
     found = np.array([fit.values for fit in fits])
     width = np.array([fit.half_width for fit in fits])
     share = np.mean(np.abs(found - values) <= width, axis=0)
@@ -108,14 +111,14 @@ def test_95_of_100_intervals_hold_the_truth_and_errors_are_the_scatter(law, valu
 
 def test_ogdens_errors_are_the_scatter_of_many_fits():
     law, values = KNOWN[4]
-    fits = [fitted(law, Data.of([made(law, values, noise=0.005, seed=s)])) for s in range(80)]
+    fits = [fitted(law, Points.of([made(law, values, noise=0.005, seed=s)])) for s in range(80)]
     found, errors = np.array([f.values for f in fits]), np.array([f.errors for f in fits])
     assert errors.mean(axis=0) == pytest.approx(found.std(axis=0), rel=4.0 / np.sqrt(160))
 
 
 def test_figures_of_merit_by_hand():
     law, test = YeohLaw(2), made(YeohLaw(1), [0.12], noise=0.01)
-    found = fitted(law, Data.of([test]))
+    found = fitted(law, Points.of([test]))
     off = law.stress(found.values, "uniaxial", STRETCH) - test.stress
     S, n = float(off @ off), 40
     assert found.rms == pytest.approx(np.sqrt(S / n))
@@ -128,9 +131,9 @@ def test_a_test_counts_by_its_weight_however_many_points_it_has():
     law = YeohLaw(1)
     soft, stiff = made(law, [0.1]), made(law, [0.2])
     many = MaterialTest(np.repeat(STRETCH, 5), np.repeat(stiff.stress, 5))
-    assert fitted(law, Data.of([soft, many])).values[0] == pytest.approx(0.15)
+    assert fitted(law, Points.of([soft, many])).values[0] == pytest.approx(0.15)
     heavy = MaterialTest(STRETCH, stiff.stress, weight=3.0)
-    assert fitted(law, Data.of([soft, heavy])).values[0] == pytest.approx(0.175)
+    assert fitted(law, Points.of([soft, heavy])).values[0] == pytest.approx(0.175)
 
 
 def test_stability_of_the_papers_pair_is_the_known_one(dragon_skin):
@@ -209,7 +212,7 @@ def test_drucker_is_the_slope_of_stress_by_logarithmic_strain(law, values):
 def test_stability_asked_for_holds_and_no_stable_neighbour_fits_better(dragon_skin):
     free = dragon_skin
     held = calibrate("dragon_skin_30", max_stretch=4, stable=6.0)
-    data, rng = Data.of(held.tests), np.random.default_rng(0)
+    data, rng = Points.of(held.tests), np.random.default_rng(0)
     stretch = np.geomspace(1.0, 6.0, 40)
     changed = []
     for law in LAWS:
@@ -237,7 +240,7 @@ def test_stability_asked_for_holds_and_no_stable_neighbour_fits_better(dragon_sk
 def test_a_softening_ogden_law_is_held_stable_too():
     test = made(OgdenLaw(1), [0.3, 0.4], stretch=np.linspace(1.1, 5.0, 30))
     [law] = [law for law in LAWS if law == OgdenLaw(1)]
-    free, held = fitted(law, Data.of([test])), fitted(law, Data.of([test]), stable=5.0)
+    free, held = fitted(law, Points.of([test])), fitted(law, Points.of([test]), stable=5.0)
     assert free.values == pytest.approx([0.3, 0.4], rel=1e-5)
     assert held.held and held.rms > free.rms
     stretch = np.geomspace(1.0, 5.0, 60)
@@ -284,7 +287,7 @@ def test_too_few_points_for_a_law():
         calibrate(test)
     assert calibrate(test, terms=1).refused.keys() >= {"Yeoh, 2 terms", "Mooney-Rivlin"}
     with pytest.raises(UndeterminedError, match="more than 3 different stretches"):
-        fitted(YeohLaw(3), Data.of([test]))
+        fitted(YeohLaw(3), Points.of([test]))
 
 
 def test_sentences_tell_of_correlated_residuals_and_of_modes_not_measured():
