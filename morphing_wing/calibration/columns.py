@@ -21,8 +21,8 @@ _NOMINAL = re.compile(r"nominal|(?<![a-z])eng|piola|(?<![a-z])pk1", re.I)
 _STRETCH = re.compile(r"stretch|lambda|λ|extension ratio", re.I)
 _STRAIN = re.compile(r"strain|epsilon|ε|elongation", re.I)
 _STRESS = re.compile(r"stress|sigma|σ", re.I)
-_UNIT = re.compile(r"[(\[]\s*([^()\[\]]*)\s*[)\]]|[/,_]\s*([^/,_()\[\]\s]+(?:/\S+)?)\s*$|"
-                   r"\bin ([^()\[\]\s]+)\s*$")
+_UNIT = re.compile(r"[(\[]\s*([^()\[\]]*)\s*[)\]]|[/,_\s]\s*([^/,_()\[\]\s]+(?:/\S+)?)\s*$|"
+                   r"(%)\s*$")
 
 
 @dataclass(frozen=True)

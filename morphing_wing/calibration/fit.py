@@ -45,7 +45,7 @@ class UndeterminedError(ValueError):
     """The data do not determine a law's constants; the message is the end of a sentence."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fit:
     """A law with its constants, how sure they are, and how well it describes the data.
 

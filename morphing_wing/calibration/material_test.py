@@ -18,7 +18,7 @@ FALL = 0.01
 """Share of the curve's range of stretch by which it may go back: what an extensometer shakes."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MaterialTest:
     """Nominal stress against stretch in one mode, in the order in which it was measured.
 

@@ -14,7 +14,7 @@ from .material_test import MaterialTest
 __all__ = ["Points"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Points:
     """All points that are used, of all tests, each with its weight.
 

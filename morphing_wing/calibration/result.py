@@ -24,7 +24,7 @@ PAPER = "the paper's pair"
 """Name of the law that every scene has unless another is given."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Calibration:
     """What tests say about a rubber.
 

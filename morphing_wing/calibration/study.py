@@ -102,6 +102,9 @@ def _up_to(
     for limit, test in zip(limits, tests, strict=True):
         require(is_number(limit) and limit > 1.0, "max_stretch", limit, "", "greater than 1")
         largest = max(t.largest for t in tests) if each else test.largest
+        if largest <= 1.0:
+            raise InputError(f"max_stretch = {limit:g}: must be left out, {test.name} is in "
+                             "compression")
         require(limit <= largest, "max_stretch", limit, "",
                 f"at most {math.floor(1e4 * largest) / 1e4:g}, the largest stretch used of "
                 f"{'the tests' if each and len(tests) > 1 else test.name}")

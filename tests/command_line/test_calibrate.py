@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from morphing_wing.calibration import Calibration
 from morphing_wing.calibration.laws import YeohLaw
 from morphing_wing.cli import main
 from morphing_wing.scene_file import parse_scene
@@ -29,6 +30,12 @@ def write(name, mode="uniaxial", constants=C, unit="MPa", factor=1.0):
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def no_picture(monkeypatch):
+    """Leave out the picture, most of the time of a small fit."""
+    monkeypatch.setattr(Calibration, "plot", lambda found, file: file.touch())
 
 
 def test_the_built_in_test_gives_its_constants_files_and_picture(here, capsys):
@@ -59,7 +66,7 @@ def test_the_built_in_test_gives_its_constants_files_and_picture(here, capsys):
     assert read.materials["material"].coefficients == pytest.approx((0.119321, 0.00305734))
 
 
-def test_several_files_with_options_once_for_all_or_once_each(here, capsys):
+def test_several_files_with_options_once_for_all_or_once_each(here, no_picture, capsys):
     for mode in ("uniaxial", "planar", "equibiaxial"):
         write(f"{mode[:2]}.csv", mode, factor=1e3, unit="kPa" if mode != "planar" else "a")
     command = ["calibrate", "un.csv", "pl.csv", "eq.csv", "--stress-unit", "kPa", "--terms", "3",
@@ -75,7 +82,7 @@ def test_several_files_with_options_once_for_all_or_once_each(here, capsys):
     assert "Not measured" not in capsys.readouterr().out
 
 
-def test_stability_on_demand(here):
+def test_stability_on_demand(here, no_picture):
     assert main(["calibrate", "dragon_skin_30", "--max-stretch", "4", "--terms", "3", "--stable",
                  "6", "--out", "held"]) == 0
     table = pd.read_csv(here / "held" / "table.csv")

@@ -98,7 +98,7 @@ def test_interval_of_neo_hooke_is_the_closed_form():
 @pytest.mark.parametrize("law, values", [KNOWN[1], KNOWN[2], KNOWN[3]],
                          ids=lambda part: getattr(part, "name", ""))
 def test_95_of_100_intervals_hold_the_truth_and_errors_are_the_scatter(law, values):
-    n = 500
+    n = 300
     fits = [fitted(law, Points.of([made(law, values, noise=0.01, seed=seed)])) for seed in range(n)]
     found = np.array([fit.values for fit in fits])
     width = np.array([fit.half_width for fit in fits])
@@ -111,9 +111,9 @@ def test_95_of_100_intervals_hold_the_truth_and_errors_are_the_scatter(law, valu
 
 def test_ogdens_errors_are_the_scatter_of_many_fits():
     law, values = KNOWN[4]
-    fits = [fitted(law, Points.of([made(law, values, noise=0.005, seed=s)])) for s in range(80)]
+    fits = [fitted(law, Points.of([made(law, values, noise=0.005, seed=s)])) for s in range(50)]
     found, errors = np.array([f.values for f in fits]), np.array([f.errors for f in fits])
-    assert errors.mean(axis=0) == pytest.approx(found.std(axis=0), rel=4.0 / np.sqrt(160))
+    assert errors.mean(axis=0) == pytest.approx(found.std(axis=0), rel=4.0 / np.sqrt(100))
 
 
 def test_figures_of_merit_by_hand():
@@ -331,6 +331,12 @@ def test_options_that_cannot_be_are_refused(options, sentence):
 def test_tests_that_cannot_be_are_refused(stretch, stress, more, sentence):
     with pytest.raises(InputError, match=f"test: {sentence}"):
         MaterialTest(stretch, stress, **more)
+
+
+def test_max_stretch_is_refused_where_all_is_compression():
+    test = made(YeohLaw(1), [0.12], stretch=np.linspace(0.95, 0.4, 9), name="c")
+    with pytest.raises(InputError, match="max_stretch = 2: must be left out, c is in compression"):
+        calibrate(test, max_stretch=2.0)
 
 
 def test_nothing_to_fit_and_a_wrong_sign_are_refused():

@@ -107,6 +107,15 @@ def test_columns_are_named_with_unit_or_without_or_by_number(written):
                      ).stretch == pytest.approx(1 + 0.01 * (STRETCH - 1))
 
 
+@pytest.mark.parametrize("strain", ["strain %", "strain (%)", "strain_%", "strain [percent]",
+                                    "Tensile strain (Extension) (%)", "strain in %", "strain/%"])
+@pytest.mark.parametrize("stress", ["stress kPa", "stress [kPa]", "stress_kPa", "stress in kPa",
+                                    "stress (of the grip) [kPa]", "sigma/kPa"])
+def test_units_are_found_as_people_write_them(strain, stress, written):
+    test = read_test(written(f"{strain},{stress}\n0,0\n25,100\n"))
+    assert list(test.stretch) == [1.0, 1.25] and test.stress[1] == pytest.approx(0.1)
+
+
 def test_a_file_without_header_wants_numbers_of_columns(written):
     file = written(columns("", STRETCH, nominal()).lstrip())
     test = read_test(file, strain="1", strain_kind="stretch", stress="2", stress_unit="N/mm2")
