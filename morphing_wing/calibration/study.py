@@ -17,6 +17,7 @@ from .material_test import MaterialTest
 from .ogden import OgdenLaw
 from .points import Points
 from .result import PAPER, Calibration
+from .stability import FARTHEST
 
 __all__ = ["LAWS", "calibrate"]
 
@@ -60,8 +61,8 @@ def calibrate(
     """
     begin = time.perf_counter()
     require(is_count(terms) and terms <= MOST_TERMS, "terms", terms, "", f"1 to {MOST_TERMS}")
-    require(stable is None or is_number(stable) and 1.0 < stable <= 10.0, "stable", stable, "",
-            "a stretch greater than 1, at most 10")
+    require(stable is None or is_number(stable) and 1.0 < stable <= FARTHEST, "stable", stable, "",
+            f"a stretch greater than 1, at most {FARTHEST:g}")
     if not tests:
         raise InputError("tests: is empty, must be at least one")
     read = [test if isinstance(test, MaterialTest) else read_test(test) for test in tests]
@@ -94,20 +95,20 @@ def _up_to(
     """Return the tests up to a stretch that at least one of them reaches."""
     if max_stretch is None:
         return tests
-    each = is_number(max_stretch)
-    limits = [max_stretch] * len(tests) if each else list(max_stretch)  # type: ignore[arg-type]
+    for_all = is_number(max_stretch)
+    limits = [max_stretch] * len(tests) if for_all else list(max_stretch)  # type: ignore[arg-type]
     if len(limits) != len(tests):
         raise InputError(f"max_stretch: is given {len(limits)} times, must be once, or once for "
                          f"each of {len(tests)} tests")
     for limit, test in zip(limits, tests, strict=True):
         require(is_number(limit) and limit > 1.0, "max_stretch", limit, "", "greater than 1")
-        largest = max(t.largest for t in tests) if each else test.largest
+        largest = max(t.largest for t in tests) if for_all else test.largest
         if largest <= 1.0:
             raise InputError(f"max_stretch = {limit:g}: must be left out, {test.name} is in "
                              "compression")
         require(limit <= largest, "max_stretch", limit, "",
                 f"at most {math.floor(1e4 * largest) / 1e4:g}, the largest stretch used of "
-                f"{'the tests' if each and len(tests) > 1 else test.name}")
+                f"{'the tests' if for_all and len(tests) > 1 else test.name}")
         if not (test.points[0] <= limit).sum() >= 2:
             raise InputError(f"max_stretch = {limit:g}: must leave at least 2 points of "
                              f"{test.name}")

@@ -127,12 +127,13 @@ def test_a_file_without_header_wants_numbers_of_columns(written):
 @pytest.mark.parametrize("name, header, mode", [
     ("a.csv", "strain,stress (MPa)", "uniaxial"), ("pure_shear.csv", "strain,stress (MPa)",
                                                    "planar"),
+    ("a.csv", "pure shear strain,pure shear stress (MPa)", "planar"),
     ("a.csv", "biaxial strain,biaxial stress (MPa)", "equibiaxial"),
     ("bulge.csv", "planar strain,stress (MPa)", "equibiaxial")])
 def test_the_mode_is_a_word_in_name_or_header(name, header, mode, written):
     test = read_test(written(columns(header, [0, 1], [0, 1]), name))
     assert test.mode == mode
-    assert ("taken for granted" in test.remarks[0]) == (header.startswith("s") and name == "a.csv")
+    assert ("taken for granted" in test.remarks[0]) == (header.startswith("strain") and name == "a.csv")
     assert read_test(written(columns(header, [0, 1], [0, 1]), name), mode="planar").mode == "planar"
 
 
