@@ -15,7 +15,8 @@ __all__ = ["PARTS", "Column", "column_of", "in_MPa"]
 PARTS = {"%": 0.01, "percent": 0.01, "-": 1.0, "1": 1.0, "mm/mm": 1.0, "m/m": 1.0, "in/in": 1.0}
 """Units of strain, and how much they are."""
 
-_OTHERS = re.compile(r"rate|transvers|lateral|width|thickness|(?<!pure[\s_-])shear|modulus|energy", re.I)
+_OTHERS = re.compile(r"rate|transvers|lateral|width|thickness|(?<!pure[\s_-])shear|modulus|energy",
+                     re.I)
 _TRUE = re.compile(r"true|cauchy|hencky|(?<![a-z])log", re.I)
 _NOMINAL = re.compile(r"nominal|(?<![a-z])eng|piola|(?<![a-z])pk1", re.I)
 _STRETCH = re.compile(r"stretch|lambda|λ|extension ratio", re.I)

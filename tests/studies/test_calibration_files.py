@@ -133,7 +133,8 @@ def test_a_file_without_header_wants_numbers_of_columns(written):
 def test_the_mode_is_a_word_in_name_or_header(name, header, mode, written):
     test = read_test(written(columns(header, [0, 1], [0, 1]), name))
     assert test.mode == mode
-    assert ("taken for granted" in test.remarks[0]) == (header.startswith("strain") and name == "a.csv")
+    assumed = header.startswith("strain") and name == "a.csv"
+    assert ("taken for granted" in test.remarks[0]) == assumed
     assert read_test(written(columns(header, [0, 1], [0, 1]), name), mode="planar").mode == "planar"
 
 
