@@ -19,6 +19,7 @@ from typing import Annotated, Any
 import typer
 from mpi4py import MPI
 
+from morphing_wing.calibrate_command import calibrate
 from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
@@ -151,6 +152,7 @@ def scenes(
 
 
 app.command()(paper)
+app.command()(calibrate)
 app.command()(verify)
 app.command()(tradeoff)
 

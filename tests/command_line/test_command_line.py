@@ -155,7 +155,8 @@ def test_scenes_with_an_unknown_name_tells_which_there_are(capfd):
 
 
 @pytest.mark.quick
-@pytest.mark.parametrize("arguments", [[], ["--help"], ["solve", "--help"], ["scenes", "--help"]])
+@pytest.mark.parametrize("arguments", [
+    [], ["--help"], ["solve", "--help"], ["scenes", "--help"], ["calibrate", "--help"]])
 def test_help_is_status_0_and_says_nothing_on_stderr(arguments, capfd):
     assert main(arguments) == 0
     said = capfd.readouterr()

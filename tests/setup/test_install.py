@@ -24,7 +24,7 @@ def test_rooms_are_parts_of_the_package(room):
     assert Path(found.origin).parent == PROJECT / room
 
 
-def test_a_plain_wheel_carries_every_module_scene_and_table(tmp_path):
+def test_a_plain_wheel_carries_every_module_scene_table_and_licence(tmp_path):
     source = tmp_path / "source"
     for folder in INSTALLED_AS:
         shutil.copytree(PROJECT / folder, source / folder)
@@ -36,7 +36,7 @@ def test_a_plain_wheel_carries_every_module_scene_and_table(tmp_path):
     expected = {
         f"{INSTALLED_AS[folder]}/{file.relative_to(PROJECT / folder)}"
         for folder in INSTALLED_AS
-        for pattern in ("**/*.py", "**/*.toml", "**/*.csv")
+        for pattern in ("**/*.py", "**/*.toml", "**/*.csv", "data/*.md")
         for file in (PROJECT / folder).glob(pattern)
     }
     assert expected - packed == set()
