@@ -61,6 +61,13 @@ class WingMeshing:
         return cls.of(cavity_width=two_sided(6, 2.0), pocket=9, cavity_length=two_sided(3, 3.0))
 
     @classmethod
+    def resolved(cls) -> WingMeshing:
+        """Return two quadratic elements through each wall, and five graded ones along a chamber."""
+        return cls.of(
+            cavity_width=two_sided(8, 2.0), pocket=9, cavity_length=two_sided(5, 2.5),
+            cavity_height=2, wall_length=2, top_thickness=2, middle_thickness=2, side_thickness=2)
+
+    @classmethod
     def fine(cls) -> WingMeshing:
         """Return a mesh for linear elements; in height it resolves the ribs' feet."""
         return cls.of(cavity_width=8, pocket=10, cavity_height=two_sided(4, 2.0), cavity_length=2)

@@ -62,7 +62,7 @@ class WingFidelity:
 FIDELITIES = {
     "draft": WingFidelity(WingMeshing.fine(), "Q1 enhanced"),
     "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
-    "reference": WingFidelity(WingMeshing.graded(), "Q2 reduced", "solid"),
+    "reference": WingFidelity(WingMeshing.resolved(), "Q2 reduced", "cell"),
 }
 
 RIB_MODELS = {"frame": None, "cell": 18, "solid": 6}
@@ -80,8 +80,8 @@ class Wing(TrimmedWing):
         Materials of spar and skin, and of the ribs.
     fidelity
         "draft" (linear hexahedra, fine mesh, enhanced strains in the skin), "standard" (quadratic
-        hexahedra), both with frame ribs, or "reference" (quadratic ones graded at the chambers'
-        corners, solid ribs). "auto": the cheapest one that fits the tolerance.
+        hexahedra), both with frame ribs, or "reference" (quadratic ones that resolve the walls,
+        cell ribs). "auto": the cheapest one that fits the tolerance.
     comm
         Communicator; all ranks of MPI by default.
     meshing, element

@@ -196,4 +196,4 @@ def test_a_solid_rib_is_the_same(monkeypatch):
 def test_a_wing_with_a_solid_rib_is_the_same():
     geometry = replace(GEOMETRY, skin_thickness=None, rib=replace(GEOMETRY.rib, n_cells=2))
     compare(lambda comm: small_wing(
-        comm, geometry=geometry, fidelity="reference").actuate(upper=0.01, cable=0.1))
+        comm, geometry=geometry, rib_model="solid").actuate(upper=0.01, cable=0.1))
