@@ -44,8 +44,9 @@ def draw(parts: Mapping[Curve, pd.DataFrame], file: str | os.PathLike) -> pathli
                         {curve: part for curve, part in parts.items() if curve.scene == scene})
             axes[0].set_ylabel(f"{SYMBOLS[scene]}, degrees")
             axes[0].set_ylim(0.0, min(axes[0].get_ylim()[1], HIGHEST))
-            half.suptitle(f"{panel.letter}   {panel.title[0].upper()}{panel.title[1:]}", x=0.01, ha="left",
-                          fontweight="bold", fontsize=12.5)
+            title = panel.title[0].upper() + panel.title[1:]
+            half.suptitle(f"{panel.letter}   {title}", x=0.01, ha="left", fontweight="bold",
+                          fontsize=12.5)
             handles, labels = axes[0].get_legend_handles_labels()
             half.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)),
                         fontsize=10, handlelength=3.0, columnspacing=1.6)
