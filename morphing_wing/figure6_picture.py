@@ -47,9 +47,10 @@ def draw(parts: Mapping[Curve, pd.DataFrame], file: str | os.PathLike) -> pathli
             title = panel.title[0].upper() + panel.title[1:]
             half.suptitle(f"{panel.letter}   {title}", x=0.01, ha="left", fontweight="bold",
                           fontsize=12.5)
-            handles, labels = axes[0].get_legend_handles_labels()
-            half.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)),
-                        fontsize=10, handlelength=3.0, columnspacing=1.6)
+            levels, *curves = zip(*axes[0].get_legend_handles_labels(), strict=True)
+            half.legend(*zip(*curves, levels, strict=True), loc="outside lower center",
+                        ncols=4 if len(curves) < 4 else 3, fontsize=10, handlelength=3.0,
+                        columnspacing=1.6)
         return save_figure(figure, file)
 
 
@@ -70,14 +71,15 @@ def _factor(
         label = "formula" if curve.fidelity == "instant" else f"\u201c{curve.fidelity}\u201d"
         if curve.reading:
             moment = part["fitted_torque_Nmm"].iloc[0]
-            label += f", section \u201c{curve.reading}\u201d, {moment:.1f} N mm"
+            label += f", section \u201c{curve.reading}\u201d"
+            label += f", {moment:.1f} N mm" if moment > 0.0 else ""
         rows = part[part["factor"] == factor]
         drawn = look(marker, colour)
         axes.plot(rows["value"], rows[panel.table.angle], label=label, zorder=3, **drawn)
         for row in rows[rows[panel.table.angle] > HIGHEST].to_dict("records"):
-            axes.annotate(f"\u2191 {row[panel.table.angle]:.0f}", (row["value"], HIGHEST),
-                          (4, -12 - 13 * len(axes.texts)), textcoords="offset points",
-                          color=drawn["color"], fontsize=9.5)
+            axes.annotate(f"\u2191{row[panel.table.angle]:.0f}", (row["value"], HIGHEST),
+                          (-9, -10 - 11 * len(axes.texts)), textcoords="offset points",
+                          color=drawn["color"], fontsize=8.5)
     points = panel.points[panel.points["factor"] == factor]
     axes.plot(points["value"], points["printed_deg"], "s", markersize=13, color="#111",
               markerfacecolor="none", markeredgewidth=1.3, zorder=4,

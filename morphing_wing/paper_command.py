@@ -33,19 +33,23 @@ def paper(
     ],
     fidelity: Annotated[
         list[str] | None,
-        typer.Option(metavar="F", help="A rung of the ladder; once each for several. The formula "
-                     "and the cheapest finite elements if not given, in fig7 draft."),
+        typer.Option(metavar="F", help="How it is computed, from cheap to exact: instant (the "
+                     "formula), cell, draft, standard, reference (fig7: from draft on); may be "
+                     "given several times. The formula and the cheapest finite elements if not "
+                     "given, in fig7 draft."),
     ] = None,
     points: Annotated[
         int | None,
         typer.Option(metavar="N", help="Points a curve beside zero: fig5 6, fig7 8 if not given."),
     ] = None,
     reading: Annotated[
-        str, typer.Option(metavar="R", help="fig6: how the rib's bars are read: flush, square or "
+        str, typer.Option(metavar="R", help="fig6: the section of the rib's bars, of which the "
+                          "paper shows a figure only: flush (as wide as the cylinders), square or "
                           "both.")
     ] = "both",
     resume: Annotated[
-        bool, typer.Option("--resume", help="fig6: do not solve again what DIR/solved.csv holds.")
+        bool, typer.Option("--resume", help="fig6: go on with a run that was killed: what "
+                             "DIR/solved.csv holds is not solved again.")
     ] = False,
     panel: Annotated[
         str,
@@ -82,12 +86,14 @@ def paper(
 
     fig5: formulas against finite elements, spar and rib alone.
 
-    fig6: spar and rib, one factor at a time.
+    fig6: three dimensions each of spar and rib, one at a time; slopes, and what the paper says.
 
     fig7: the wing, to 40 kPa and 0.5 N in each cable.
 
     What is done is written as it goes: table.csv, summary.json, NAME.png; levels.csv of a table,
     sensitivities.csv and solved.csv of fig6, fields/ of fig7.
+
+    Example: mpirun -n 2 morphing-wing paper fig6 --fidelity instant --fidelity standard
     """
     require(name in SCENES, "table or figure", name, "", f"one of {', '.join(SCENES)}")
     check_options(context, name)
