@@ -10,8 +10,8 @@ import pandas as pd
 
 from .errors import InputError, one_line
 from .figure5_curves import Curve
-from .figure6 import Figure6
 from .figure6_points import PANELS
+from .figure6_result import Figure6
 from .root import on_root, write_whole
 
 __all__ = ["CASES", "read_cases", "write_cases"]

@@ -14,7 +14,7 @@ from morphing_wing.tables_command import ended
 
 if TYPE_CHECKING:
     from morphing_wing.figure5_curves import Curve
-    from morphing_wing.figure6 import Figure6
+    from morphing_wing.figure6_result import Figure6
 
 __all__ = ["run_figure6"]
 

@@ -8,8 +8,8 @@ import pandas as pd
 from rich.table import Table
 
 from morphing_wing.figure5_curves import Curve
-from morphing_wing.figure6 import Figure6
 from morphing_wing.figure6_points import PANELS
+from morphing_wing.figure6_result import Figure6
 from morphing_wing.terminal_tables import text_table
 
 __all__ = ["report"]
