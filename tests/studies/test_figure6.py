@@ -101,6 +101,14 @@ def test_the_moment_is_fitted_to_three_rows_and_angles_are_proportional_to_it(fr
     assert solved.measures["chord_angle_deg"] == pytest.approx(row["chord_angle_deg"], rel=0.005)
 
 
+def test_at_120_degrees_a_frame_has_one_per_cent_less_than_when_it_is_scaled():
+    thin = Rib(rib_of({**PANELS["rib"].middle, "T_rs/l_cs": "0.75/5"}, "square"),
+               comm=MPI.COMM_SELF)
+    scaled, solved = (state.measures["chord_angle_deg"] for state in thin.bend(torque=[1.0, 17.0]))
+    assert solved == pytest.approx(120.0, abs=1.0)
+    assert solved / (17.0 * scaled) == pytest.approx(0.990, abs=0.001)
+
+
 def test_flush_frames_have_what_the_paper_says_of_ribs(frame):
     assert [claim["holds"] for claim in frame.claims() if claim["fidelity"] == "draft"] == [
         True, True]
