@@ -9,6 +9,7 @@ import typer
 from mpi4py import MPI
 
 from morphing_wing.errors import InputError, require
+from morphing_wing.figure6_command import run_figure6
 from morphing_wing.figure7_command import run_figure7
 from morphing_wing.ladder import LADDERS
 from morphing_wing.out_folder import check_folder
@@ -17,26 +18,39 @@ from morphing_wing.tables_command import run_figure5, run_table
 
 __all__ = ["paper"]
 
-SCENES = {"table2": ("spar",), "table3": ("rib",), "fig5": ("spar", "rib"), "fig7": ("wing",)}
-COMING = ("fig6",)
+SCENES = {"table2": ("spar",), "table3": ("rib",), "fig5": ("spar", "rib"),
+          "fig6": ("spar", "rib"), "fig7": ("wing",)}
 POINTS = {"fig5": 6, "fig7": 8}
-OF_ALL = ("name", "fidelity", "out")
+OF = {"name": SCENES, "fidelity": SCENES, "out": SCENES, "points": POINTS,
+      "reading": ("fig6",), "resume": ("fig6",)}
+"""Where an option belongs that is not of fig7 alone."""
 
 
 def paper(
     context: typer.Context,
     name: Annotated[
-        str, typer.Argument(metavar="table2|table3|fig5|fig7", help="Which one of the paper.")
+        str, typer.Argument(metavar="table2|table3|fig5|fig6|fig7", help="Which one of the paper.")
     ],
     fidelity: Annotated[
         list[str] | None,
-        typer.Option(metavar="F", help="A rung of the ladder; once each for several. The formula "
-                     "and the cheapest finite elements if not given, in fig7 draft."),
+        typer.Option(metavar="F", help="How it is computed, from cheap to exact: instant (the "
+                     "formula), cell, draft, standard, reference (fig7: from draft on); may be "
+                     "given several times. The formula and the cheapest finite elements if not "
+                     "given, in fig7 draft."),
     ] = None,
     points: Annotated[
         int | None,
         typer.Option(metavar="N", help="Points a curve beside zero: fig5 6, fig7 8 if not given."),
     ] = None,
+    reading: Annotated[
+        str, typer.Option(metavar="R", help="fig6: the section of the rib's bars, of which the "
+                          "paper shows a figure only: flush (as wide as the cylinders), square or "
+                          "both.")
+    ] = "both",
+    resume: Annotated[
+        bool, typer.Option("--resume", help="fig6: go on with a run that was killed: what "
+                             "DIR/solved.csv holds is not solved again.")
+    ] = False,
     panel: Annotated[
         str,
         typer.Option(metavar="P", help="fig7: pressure, cables or both: which half of the figure."),
@@ -72,13 +86,15 @@ def paper(
 
     fig5: formulas against finite elements, spar and rib alone.
 
+    fig6: three dimensions each of spar and rib, one at a time; slopes, and what the paper says.
+
     fig7: the wing, to 40 kPa and 0.5 N in each cable.
 
     What is done is written as it goes: table.csv, summary.json, NAME.png; levels.csv of a table,
-    fields/ of fig7.
+    sensitivities.csv and solved.csv of fig6, fields/ of fig7.
+
+    Example: mpirun -n 2 morphing-wing paper fig6 --fidelity instant --fidelity standard
     """
-    if name in COMING:
-        raise InputError(f"{name}: is not there yet, must be one of {', '.join(SCENES)}")
     require(name in SCENES, "table or figure", name, "", f"one of {', '.join(SCENES)}")
     check_options(context, name)
     fidelities = tuple(dict.fromkeys(fidelity or ()))
@@ -92,14 +108,15 @@ def paper(
     on_root(MPI.COMM_WORLD, lambda: check_folder(folder))
     if name == "fig5":
         return run_figure5(fidelities, points, folder)
+    if name == "fig6":
+        return run_figure6(fidelities, reading, resume, folder)
     return run_table(name, fidelities, folder)
 
 
 def check_options(context: typer.Context, name: str) -> None:
     """Refuse options that were given and belong to another figure."""
     for option in context.command.params:
-        belongs = SCENES if option.name in OF_ALL else POINTS if option.name == "points" else (
-            "fig7",)
+        belongs = OF.get(option.name, ("fig7",))
         source = context.get_parameter_source(option.name)
         if name not in belongs and source is not None and source.name == "COMMANDLINE":
             raise InputError(f"{option.opts[0]}: must be left out of {name}, it is an option of "

@@ -92,9 +92,9 @@ def rib_of(levels: Mapping[str, str], reading: str) -> RibGeometry:
 
 
 def fitted(part: pd.DataFrame) -> pd.DataFrame:
-    """Scale rows under 1 N mm to the end moment that fits the printed angles best."""
+    """Scale rows under 1 N mm to the end moment that fits the angles printed of them best."""
     angle, per_Nmm = TABLE_3.angle, part[TABLE_3.angle]
-    found = part[per_Nmm.notna()]
+    found = part[per_Nmm.notna() & part["printed_deg"].notna()]
     moment = np.nan
     if len(found):
         moment = found["printed_deg"] @ found[angle] / (found[angle] @ found[angle])

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import pathlib
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -14,14 +12,13 @@ import numpy as np
 import pandas as pd
 from mpi4py import MPI
 
-from .errors import InputError
 from .ladder import LADDERS
 from .level_picture import draw
 from .path import Path
 from .printed_tables import PrintedTable
 from .range_analysis import range_analysis
-from .record import without_fields
 from .root import on_root
+from .solved_case import OUTCOME, solved_case
 from .study_files import write_study
 
 __all__ = ["Series", "TableStudy", "solved"]
@@ -60,33 +57,14 @@ def solved(
     Returns
     -------
     DataFrame
-        One row a case: ``refused`` says why the fidelity cannot model it, ``stopped`` why its path
-        ended before the load; then the angle is missing.
+        One row a case, see `solved_case`.
     """
     found = []
     for case in printed.cases.to_dict("records"):
-        row = {**case, printed.angle: np.nan, "refused": "", "stopped": ""}
-        begin = time.perf_counter()
-        try:
-            path = without_fields(run(case))
-        except InputError as problem:
-            row["refused"] = str(problem)
-        else:
-            row |= {"dofs": path.scene.dofs, "newton_iterations":
-                    sum(state.newton_iterations for state in path)}
-            if path.converged:
-                row[printed.angle] = path[-1].measures[printed.angle]
-                row["energy_Nmm"] = path[-1].energy_Nmm
-            else:
-                row["stopped"] = path.reason
-        gc.collect()  # at one point on all ranks: a scene's matrices and factors go together
-        row["seconds"] = time.perf_counter() - begin
-        found.append(row)
+        found.append(solved_case(case, printed.angle, run))
         if told is not None:
-            told(series, row)
-    return pd.DataFrame(found).reindex(columns=[
-        *printed.cases, printed.angle, "energy_Nmm", "dofs", "newton_iterations",
-        "seconds", "refused", "stopped"])
+            told(series, found[-1])
+    return pd.DataFrame(found).reindex(columns=[*printed.cases, printed.angle, *OUTCOME])
 
 
 @dataclass

@@ -1,11 +1,14 @@
 """The contract of `morphing-wing paper`; the study of Figure 7 is a stand-in."""
 
+import io
 import json
 from types import SimpleNamespace
 
+import pandas as pd
 import pytest
 from mpi4py import MPI
 
+from morphing_wing import figure6 as figure6_module
 from morphing_wing import figure7 as module
 from morphing_wing import figure7_result
 from morphing_wing import reach as map_module
@@ -18,6 +21,9 @@ from morphing_wing.record import SceneRecord
 pytestmark = pytest.mark.quick
 
 SCENE = SceneRecord("wing", "draft", 7, "pressure_MPa", MPI.COMM_SELF, {})
+
+
+FURTHER = {"table2": ["levels.csv"], "table3": ["levels.csv"], "fig6": ["sensitivities.csv"]}
 
 
 def path(panel, loads, converged):
@@ -100,18 +106,18 @@ def test_the_map_is_run_where_it_is_asked_for(asked, tmp_path):
     assert (tmp_path / "here" / "map_with_skin_down_draft" / "map.png").exists()
 
 
-def test_what_is_to_come_says_so(asked, capfd):
-    assert refused(capfd, "fig6") == (
-        "morphing-wing: fig6: is not there yet, must be one of table2, table3, fig5, fig7\n")
-
-
 @pytest.mark.parametrize("arguments, sentence", [
-    (["fig8"], "table or figure = 'fig8': must be one of table2, table3, fig5, fig7"),
+    (["fig8"], "table or figure = 'fig8': must be one of table2, table3, fig5, fig6, fig7"),
     (["table2", "--skin", "on"], "--skin: must be left out of table2, it is an option of fig7"),
     (["fig5", "--one-direction"], "--both-directions: must be left out of fig5, it is an option"),
     (["table3", "--map"], "--map: must be left out of table3, it is an option of fig7"),
     (["table3", "--points", "4"], "--points: must be left out of table3, it is an option of fig5 "
                                   "and fig7"),
+    (["fig6", "--points", "4"], "--points: must be left out of fig6, it is an option of fig5 and"),
+    (["fig5", "--resume"], "--resume: must be left out of fig5, it is an option of fig6"),
+    (["fig6", "--reading", "round"], "--reading = 'round': must be flush, square or both"),
+    (["fig6", "--fidelity", "best"], "--fidelity = 'best': must be one of instant, cell, draft"),
+    (["fig6", "--resume"], "--resume: output/fig6 must hold a solved.csv of a run to go on with"),
     (["table3", "--fidelity", "cheap"], "--fidelity = 'cheap': must be one of instant, cell"),
     (["table2", "--fidelity", "instant", "--fidelity", "best"], "--fidelity = 'best': must be one"),
     (["fig5", "--fidelity", "best"], "--fidelity = 'best': must be one of instant, cell, draft"),
@@ -133,17 +139,42 @@ def test_bad_input_is_one_sentence_and_leaves_nothing(arguments, sentence, asked
 
 @pytest.mark.parametrize("name, said", [
     ("table2", "none: nothing is fitted"), ("table3", "32.33 N mm, fitted"),
-    ("fig5", "26.13 deg at 30 kPa")])
-def test_tables_and_figure_5_by_the_formulas(name, said, asked, tmp_path, capsys):
+    ("fig5", "26.13 deg at 30 kPa"), ("fig6", "l_s1 has 75% of h_t's effect")])
+def test_tables_and_figures_by_the_formulas(name, said, asked, tmp_path, capsys):
     assert main(["paper", name, "--fidelity", "instant"]) == 0
     folder = tmp_path / "output" / name
     assert {file.name for file in folder.iterdir()} == {
-        f"{name}.png", "table.csv", "summary.json", *([] if name == "fig5" else ["levels.csv"])}
+        f"{name}.png", "table.csv", "summary.json", *FURTHER.get(name, ())}
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["study"] == name and summary["fidelity"] == "instant"
     printed = capsys.readouterr().out
     assert said in printed and f"results are in output/{name}" in printed
     assert name != "table3" or "Misprint: Table 3 has 24.354" in printed
+
+
+def test_figure_6_goes_on_after_the_cases_that_were_solved(asked, monkeypatch, tmp_path, capsys):
+    for scene in ("Spar", "Rib"):  # formulas in the place of finite elements
+        formula = getattr(figure6_module, scene)
+        monkeypatch.setattr(figure6_module, scene, lambda shape, fidelity, comm, kind=formula: kind(
+            shape, fidelity="instant", comm=comm))
+    monkeypatch.setattr(figure6_module, "Bulge", lambda scene: None)
+    figure6 = ["paper", "fig6", "--fidelity", "draft", "--reading", "flush", "--out", "here"]
+    assert main(figure6) == 0
+    kept = tmp_path / "here" / "solved.csv"
+    cases, whole = kept.read_text().splitlines(), (tmp_path / "here" / "table.csv").read_text()
+    kept.write_text("\n".join(cases[:-3]) + "\n")  # killed before the last three
+    capsys.readouterr()
+    assert main([*figure6, "--resume"]) == 0
+    said = capsys.readouterr().out
+    assert f"{len(cases) - 4} case(s) were solved before" in said
+    assert [line.split(":")[0] for line in said.splitlines() if "rib, draft, flush, " in line
+            and " of 16" in line] == [f"rib, draft, flush, {i} of 16" for i in (14, 15, 16)]
+    assert same_but_for_seconds(whole, (tmp_path / "here" / "table.csv").read_text())
+
+
+def same_but_for_seconds(*texts):
+    first, second = (pd.read_csv(io.StringIO(text)).drop(columns="seconds") for text in texts)
+    return first.equals(second)
 
 
 def test_a_rung_that_only_one_half_of_figure_5_has_wants_another_beside_it(asked, monkeypatch,
@@ -155,7 +186,7 @@ def test_a_rung_that_only_one_half_of_figure_5_has_wants_another_beside_it(asked
 def test_a_file_in_the_place_of_the_folder_is_refused_before_anything_is_run(asked, tmp_path,
                                                                              capfd):
     (tmp_path / "taken").write_text("precious")
-    for name in ("fig5", "fig7", "table2"):
+    for name in ("fig5", "fig6", "fig7", "table2"):
         assert "must be a folder" in refused(capfd, name, "--out", "taken")
     assert asked.calls == []
 
