@@ -82,7 +82,7 @@ def outputs_of(file: SceneFile) -> dict[str, str]:
         "rotation_deg": "rotation of a rib's tail",
         "line_deg": "rotation of the line from a rib's root to its tail",
         "foot_use": "how far the glue at a rib's foot is used, 1: damage begins",
-        "tail_use": "how far the glue at a rib's tail is used",
+        "bond_use": "how far the glue at a rib's tail is used",
     }
     ribs = range(1, len(file.geometry.rib_positions) + 1)
     return known | {f"rib_{i}_{name}": words for i in ribs for name, words in each.items()}
