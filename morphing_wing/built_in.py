@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from importlib import resources
 
-__all__ = ["built_in_scenes"]
+__all__ = ["built_in_scenes", "built_in_studies"]
 
 
 def built_in_scenes() -> dict[str, str]:
     """Return the TOML text of the built-in scenes by name."""
     return texts("scenes")
+
+
+def built_in_studies() -> dict[str, str]:
+    """Return the TOML text of the built-in studies by name."""
+    return texts("studies")
 
 
 def texts(room: str) -> dict[str, str]:

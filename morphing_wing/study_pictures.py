@@ -50,6 +50,7 @@ def label(column: str) -> str:
         return _SYMBOLS[column]
     found = _UNIT.fullmatch(column)
     words, unit = (found[1], _UNITS[found[2]]) if found else (column, "")
+    words = re.sub(r"coefficients_(\d)$", lambda m: f"C{int(m[1]) + 1}0", words)  # Yeoh's
     return words.replace("_", " ") + (f", {unit}" if unit else "")
 
 
@@ -127,11 +128,11 @@ def variance_shares(result: StudyResult, folder: pathlib.Path) -> pathlib.Path |
         axes.barh(y, shares, 0.62, color=[
             _GREY if source == REST else COLOURS[0] for source in found["source"]])
         for place, share, p in zip(y, shares, found["p"], strict=True):
-            text = f" {share:.2g} %" if share < 1.0 else f" {share:.1f} %"
+            text = f" {share:.2g} %" if 0.0 < share < 1.0 else f" {share:.1f} %"
             axes.text(share, place, text + (f", {_chance(p)}" if np.isfinite(p) else ""),
                       va="center", fontsize=9.5)
         axes.set_yticks(y, [_source(source) for source in found["source"]])
-        axes.set_xlim(0.0, max(1.45 * shares.max(), 1.0))
+        axes.set_xlim(0.0, max(1.75 * shares.max(), 1.0))
         axes.set_xlabel("share of all squares, %")
 
     return _bars(result, "variance", folder / "variance.png", panel)
