@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import pathlib
 import sys
-from contextlib import ExitStack
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -120,6 +119,9 @@ def by_ranks(comm: Any, checked: Study | None, folder: pathlib.Path, resume: boo
     """Compute on all other ranks what rank 0 deals out."""
     from mpi4py.futures import MPICommExecutor
 
+    from morphing_wing.case_pool import petsc_alone
+
+    petsc_alone()
     status, problem = DONE, None
     with MPICommExecutor(MPI.COMM_WORLD, root=0) as pool:
         if pool is not None and checked is not None:
@@ -145,8 +147,7 @@ def computed(
     size = len(checked.inputs())
     typer.echo(f"{checked.name}: {size} cases, {len(checked.factors)} factors, "
                f"{checked.design.kind.replace('_', ' ')}, {workers} worker(s)")
-    with ExitStack() as stack:
-        progress = stack.enter_context(StudyProgress(console(), checked.outputs))
+    with StudyProgress(console(), size, checked.outputs, bar=pool is None) as progress:
         return checked.run(workers, folder, resume, told=progress, pool=pool)
 
 

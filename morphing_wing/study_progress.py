@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any
 
@@ -23,25 +23,32 @@ class StudyProgress:
     ----------
     console
         Where to.
+    size
+        How many cases there are.
     outputs
         The first one's value is told.
+    bar
+        Whether a terminal may show a bar; mpirun makes a terminal of everything.
 
     Examples
     --------
-    >>> with StudyProgress(console(), study.outputs) as progress:   # doctest: +SKIP
+    >>> with StudyProgress(console(), size, study.outputs) as progress:   # doctest: +SKIP
     ...     study.run(workers=2, told=progress)
     """
 
-    def __init__(self, console: Console, outputs: Any) -> None:
+    def __init__(
+        self, console: Console, size: int, outputs: Sequence[str], bar: bool = True
+    ) -> None:
         self._console, self._output = console, outputs[0]
+        self._lines = not (bar and console.is_terminal)
         self._begin = time.perf_counter()
         self._first: int | None = None
         self._told = 0
         self._bar = Progress(
             BarColumn(), TextColumn("{task.completed}/{task.total} cases"), TimeElapsedColumn(),
             TextColumn("{task.description}"), console=console,
-            disable=not console.is_terminal)
-        self._task = self._bar.add_task("", total=None)
+            disable=self._lines)
+        self._task = self._bar.add_task("", total=size)
 
     def __enter__(self) -> StudyProgress:
         """Show the bar."""
@@ -64,10 +71,10 @@ class StudyProgress:
         bad = row["refused"] or row["stopped"]
         found = bad or f"{self._output} = {row[self._output]:.5g}"
         words = f"{in_words(left)} left" if done < size else f"done in {in_words(spent)}"
-        self._bar.update(self._task, completed=done, total=size,
+        self._bar.update(self._task, completed=done,
                          description=f"{words}; {found[:60]}")
         part = done * _LINES // size
-        if not self._console.is_terminal and (part > self._told or bad):
+        if self._lines and (part > self._told or bad):
             self._told = part
             self._console.print(f"{done} of {size} cases, {words}: {found}", highlight=False,
                                 markup=False, soft_wrap=True)
