@@ -93,7 +93,7 @@ BROKEN = {
         toml(factors='geometry = { low = "1 mm", high = "2 mm" }'),
         "factors: geometry: is a table, must be one of its keys: preset, "),
     "factor that is the scene": (
-        toml(factors='scene = { levels = ["spar", "rib"] }'), "factor 'scene': must be another key"),
+        toml(factors='scene = { levels = ["spar", "rib"] }'), "factor 'scene': must be another"),
     "value for a factor": (
         thickness('"1 mm"'), "factors.geometry.top_thickness = '1 mm': must be a table, such as"),
     "empty factor": (thickness("{}"), "geometry.top_thickness: low is missing, must have levels"),
