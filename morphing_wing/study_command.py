@@ -33,7 +33,7 @@ def study(
     workers: Annotated[
         int | None,
         typer.Option(metavar="N", help="Processes on this machine, one case each at a time; as "
-                     "many as cores if not given."),
+                     "many as cores if not given, fewer for formulas."),
     ] = None,
     out: Annotated[
         pathlib.Path | None,
@@ -89,7 +89,7 @@ def study(
     require(workers is None or workers >= 1, "--workers", workers, "", "1 or more")
     checked = on_root(comm, read)
     if executor == "processes":
-        result = computed(checked, folder, resume, workers or len(os.sched_getaffinity(0)), None)
+        result = computed(checked, folder, resume, workers or usual_workers(checked), None)
         return ended(result, folder)
     return by_ranks(comm, checked, folder, resume)
 
@@ -113,6 +113,15 @@ def studies(
 def under_mpi_futures() -> bool:
     """Whether ``python -m mpi4py.futures`` runs this program, on rank 0 alone."""
     return "mpi4py.futures" in sys.orig_argv
+
+
+def usual_workers(checked: Study) -> int:
+    """Return as many workers as cores; for a formula one a thousand cases, which take seconds."""
+    cores = len(os.sched_getaffinity(0))
+    varied = any(factor.key == "fidelity" for factor in checked.factors)
+    if checked.case.file.fidelity == "instant" and not varied:
+        return min(cores, 1 + len(checked.inputs()) // 1000)
+    return cores
 
 
 def by_ranks(comm: Any, checked: Study | None, folder: pathlib.Path, resume: bool) -> int:
