@@ -92,6 +92,16 @@ class SparFormula:
         """Return phi_1 in degrees under a pressure in MPa of at least 0; nan past the largest."""
         return float(np.degrees(self._n * self.turn(pressure)))
 
+    def stretches(self, turn: float) -> np.ndarray:
+        """Return the stretches of top, wall between chambers, sides and middle at a cell's turn."""
+        return 1.0 + turn * self._rates
+
+    def stiffness_left(self, turn: float) -> float:
+        """Return dP/dtheta at a turn in radians over that at rest: 0 at the limit point."""
+        step = 1e-5
+        at, rest = (self.pressure(t + step) - self.pressure(t - step) for t in (turn, 0.0))
+        return float(at / rest)
+
     def energy(self, turn: float) -> float:
         """Return the stored energy in N mm of all cells at a turn of each, in radians."""
         stretch = 1.0 + turn * self._rates

@@ -13,16 +13,17 @@ import pathlib
 import sys
 import warnings
 from collections.abc import Sequence
-from importlib import resources
 from typing import Annotated, Any
 
 import typer
 from mpi4py import MPI
 
+from morphing_wing.built_in import built_in_scenes
 from morphing_wing.calibrate_command import calibrate
 from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
+from morphing_wing.study_command import studies, study, under_mpi_futures
 from morphing_wing.together import (
     BAD_INPUT,
     DONE,
@@ -155,6 +156,8 @@ app.command()(paper)
 app.command()(calibrate)
 app.command()(verify)
 app.command()(tradeoff)
+app.command()(study)
+app.command()(studies)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -167,7 +170,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = sys.argv[1:] if argv is None else list(argv)
 
+    # Its other ranks wait for cases, and take no part in anything collective.
+    alone = under_mpi_futures()
+    comm = MPI.COMM_SELF if alone else MPI.COMM_WORLD
+
     def command() -> int:
+        if alone and arguments[:1] not in (["study"], ["studies"]):
+            raise InputError("python -m mpi4py.futures: must run study, other commands take mpirun "
+                             "alone")
         with warnings.catch_warnings():
             warnings.showwarning = warn_in_one_line
             status = app(arguments or ["--help"], prog_name="morphing-wing", standalone_mode=False)
@@ -175,7 +185,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise KeyboardInterrupt
         return status if isinstance(status, int) else DONE
 
-    return run_together(MPI.COMM_WORLD, command, explain)
+    return run_together(comm, command, explain)
 
 
 def explain(problem: BaseException) -> tuple[int, str]:
@@ -192,13 +202,6 @@ def explain(problem: BaseException) -> tuple[int, str]:
         return UNEXPECTED, "".join(traceback.format_exception(problem))
     said = f"unexpected {type(problem).__name__}: {one_line(problem)}"
     return UNEXPECTED, f"morphing-wing: {said} (MORPHING_WING_DEBUG=1 shows where)"
-
-
-def built_in_scenes() -> dict[str, str]:
-    """Return the TOML text of the built-in scenes by name."""
-    folder = resources.files("morphing_wing") / "scenes"
-    files = sorted((f for f in folder.iterdir() if f.name.endswith(".toml")), key=lambda f: f.name)
-    return {f.name.removesuffix(".toml"): f.read_text(encoding="utf-8") for f in files}
 
 
 def or_hint(scene: pathlib.Path) -> pathlib.Path:
