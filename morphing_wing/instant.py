@@ -120,7 +120,7 @@ class InstantSpar(Formula, Spar):
                     f"{1000 * pressure:.4g} kPa were asked for")
         angle = (-1.0 if load["lower_MPa"] else 1.0) * self.geometry.n_cells * turn
         return ({"span_angle_deg": float(np.degrees(angle)), "span_line_deg": arc_line(angle)},
-                self._formula.energy(turn))
+                float(self._formula.energy(turn)))
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
