@@ -104,13 +104,25 @@ class SparFormula(BroadcastFormula):
         """Return phi_1 in degrees, nan where `turn` is."""
         return np.degrees(self._values["n_cells"] * self.turn(pressure))
 
-    def largest_stretch(self, pressure: ArrayLike) -> np.ndarray:
-        """Return the larger stretch of top and wall between chambers, nan where `turn` is."""
-        def found(v: Values, pressure: np.ndarray) -> tuple[np.ndarray]:
-            rates = _cell(v).rates
-            return (1.0 + np.maximum(rates[0], rates[1]) * _turn(v, pressure),)
+    def stretches(self, turn: ArrayLike) -> np.ndarray:
+        """Return the stretches at a cell's turn in radians.
 
-        return self._over(found, pressure)[0]
+        Returns
+        -------
+        Array with a last axis of 4: top, wall between chambers, sides, middle.
+        """
+        def found(v: Values, turn: np.ndarray) -> tuple[np.ndarray, ...]:
+            return tuple(1.0 + rate * turn for rate in _cell(v).rates)
+
+        top, wall, sides = self._over(found, turn)
+        return np.stack([top, wall, sides, sides], axis=-1)
+
+    def stiffness_left(self, turn: ArrayLike) -> np.ndarray:
+        """Return dP/dtheta at a turn in radians over that at rest: 0 at the limit point."""
+        def found(v: Values, turn: np.ndarray) -> tuple[np.ndarray]:
+            return (_pressure(v, turn)[1] / _pressure(v, np.zeros_like(turn))[1],)
+
+        return self._over(found, turn)[0]
 
     def energy(self, turn: ArrayLike) -> np.ndarray:
         """Return the stored energy in N mm of all cells at a turn of each, in radians."""

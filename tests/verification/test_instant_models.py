@@ -157,6 +157,26 @@ def test_derivatives_of_the_spars_angle_are_its_differences(material):
     np.testing.assert_allclose(exact["n_cells"], angle().angle(pressure) / VALIDATION.n_cells)
 
 
+def test_the_stiffness_left_is_1_at_rest_and_0_at_the_limit_point():
+    spar = SparFormula(VALIDATION, STIFFENING)
+    limit = brentq(lambda t: spar.pressure(t + 1e-6) - spar.pressure(t - 1e-6), 0.01, 0.3)
+    assert spar.stiffness_left(0.0) == 1.0
+    assert spar.stiffness_left(limit) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_energy_is_a_sum_over_stretches_and_its_slope_the_pressure():
+    spar, h = SparFormula(VALIDATION, DRAGON_SKIN_30, top_thickness=[1.0, 1.4]), 1e-6
+    slope = (spar.energy(0.02 + h) - spar.energy(0.02 - h)) / (2 * h)
+    lever = np.array([1.0, 1.4]) + VALIDATION.cavity_height + VALIDATION.middle_thickness / 2
+    swept = VALIDATION.n_cells * 1.5 * lever**2 * VALIDATION.width
+    np.testing.assert_allclose(slope, swept * spar.pressure(0.02), rtol=1e-8)
+    stretches = spar.stretches([[0.0], [0.02]])
+    assert stretches.shape == (2, 2, 4) and (stretches[0] == 1.0).all()
+    np.testing.assert_allclose(
+        stretches[1, :, 0] - 1.0, 2 * lever * 0.02 / VALIDATION.pitch, rtol=1e-13)
+    np.testing.assert_allclose(stretches[1, :, 2:] - 1.0, (stretches[1, :, :1] - 1.0) / 2)
+
+
 @pytest.mark.parametrize("section", ["flush", "square"])
 @pytest.mark.parametrize("consistent", [False, True])
 def test_derivatives_of_the_ribs_angle_are_its_differences(section, consistent):
