@@ -140,6 +140,14 @@ class RibGeometry:
         """Whether cylinders go on through the bars: with bosses, or where bars are as wide."""
         return self.bosses or self.shaft_width > 0.999 * self.pivot_diameter
 
+    @property
+    def volume(self) -> float:
+        """Volume of shafts and pivots in mm^3, without foot plate and tail block.
+
+        Shafts count from pivot axis to pivot axis, pivots between the shafts' faces.
+        """
+        return self.frame().volume("shaft", "boss", "pivot", "centre_pivot")
+
     def frame(self) -> Frame:
         """Return the rib as a frame with one root and one tail point.
 

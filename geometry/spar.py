@@ -180,6 +180,12 @@ class SparGeometry:
         """Chordwise width in mm over all."""
         return self.cavity_width + 2 * self.side_thickness
 
+    @property
+    def volume(self) -> float:
+        """Volume of the elastomer in mm^3, chambers left out."""
+        chamber = self.cavity_length * self.cavity_height * self.cavity_width
+        return self.length * self.height * self.width - 2 * self.n_cells * chamber
+
     def chamber_of(self, z: np.ndarray) -> np.ndarray:
         """Return the number, from 0 at the root, of the chamber at each place along the span."""
         ends = np.cumsum(self.walls[:-1] + self.cavity_length)

@@ -13,12 +13,12 @@ import pathlib
 import sys
 import warnings
 from collections.abc import Sequence
-from importlib import resources
 from typing import Annotated, Any
 
 import typer
 from mpi4py import MPI
 
+from morphing_wing.built_in import built_in_scenes
 from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
@@ -190,13 +190,6 @@ def explain(problem: BaseException) -> tuple[int, str]:
         return UNEXPECTED, "".join(traceback.format_exception(problem))
     said = f"unexpected {type(problem).__name__}: {one_line(problem)}"
     return UNEXPECTED, f"morphing-wing: {said} (MORPHING_WING_DEBUG=1 shows where)"
-
-
-def built_in_scenes() -> dict[str, str]:
-    """Return the TOML text of the built-in scenes by name."""
-    folder = resources.files("morphing_wing") / "scenes"
-    files = sorted((f for f in folder.iterdir() if f.name.endswith(".toml")), key=lambda f: f.name)
-    return {f.name.removesuffix(".toml"): f.read_text(encoding="utf-8") for f in files}
 
 
 def or_hint(scene: pathlib.Path) -> pathlib.Path:

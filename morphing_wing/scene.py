@@ -153,6 +153,10 @@ class Scene(ABC):
         return tuple(n for n in self.load_names
                      if self._load[n] != 0.0 or any(t[n] != 0.0 for t in targets))
 
+    def stiffness_left(self, loads: Sequence[str]) -> float:
+        """Return the stiffness against loads in use over that at rest: 0 at a limit point."""
+        return self._work.stiffness_left(loads)
+
     # -- for the stepping ---------------------------------------------------------------------
 
     def set_load(self, load: Mapping[str, float]) -> None:

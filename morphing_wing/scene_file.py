@@ -36,7 +36,9 @@ from morphing_wing.materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Ye
 from morphing_wing.scene_keys import Keys, RibKeys, check_keys, one_of
 from morphing_wing.spar_rungs import pick_of
 
-__all__ = ["SceneFile", "located", "parse_scene", "read_scene"]
+__all__ = [
+    "SceneFile", "check_scene", "located", "parse_scene", "parse_table", "read_scene", "read_table",
+]
 
 DEFAULT_FIDELITY = {"spar": "standard", "rib": "draft", "wing": "draft"}
 
@@ -72,15 +74,19 @@ class SceneFile:
     fidelity: str
     tolerance: float | None = None
 
-    def build(self, comm: Any = None) -> Any:
-        """Build the scene on all ranks of ``comm`` (None: all); its states tell of its limits."""
-        module = importlib.import_module(f"morphing_wing.{self.scene}")  # loads DOLFINx
-        from morphing_wing.limits import Limits
+    def build(self, comm: Any = None, limits: bool = True) -> Any:
+        """Build the scene on all ranks of ``comm`` (None: all).
 
+        Its states tell of its limits, see `morphing_wing.limits.Limits`, but for ``limits=False``.
+        """
+        module = importlib.import_module(f"morphing_wing.{self.scene}")  # loads DOLFINx
         scene = getattr(module, self.scene.capitalize())
         built = scene(self.geometry, **self.materials, fidelity=self.fidelity, comm=comm,
                       tolerance=self.tolerance)
-        built.watch.append(Limits(built))
+        if limits:
+            from morphing_wing.limits import Limits
+
+            built.watch.append(Limits(built))
         return built
 
     def run(self, scene: Any, **options: Any) -> Any:
@@ -105,6 +111,11 @@ def read_scene(file: str | pathlib.Path, fidelity: str | None = None) -> SceneFi
     InputError
         ``wing.toml: loads.upper = '20 mm': must be a pressure as text with its unit, such as ...``.
     """
+    return check_scene(read_table(file), str(file), fidelity)
+
+
+def read_table(file: str | pathlib.Path) -> dict[str, Any]:
+    """Read a TOML file without checking what is in it."""
     try:
         text = pathlib.Path(file).read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -112,15 +123,24 @@ def read_scene(file: str | pathlib.Path, fidelity: str | None = None) -> SceneFi
     except (OSError, ValueError) as problem:
         why = getattr(problem, "strerror", None) or "no valid file name"
         raise InputError(f"{file}: cannot be read, {why.lower()}") from None
-    return parse_scene(text, str(file), fidelity)
+    return parse_table(text, str(file))
+
+
+def parse_table(text: str, name: str) -> dict[str, Any]:
+    """Return what TOML text holds; ``name`` stands for the file in error messages."""
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as problem:
+        raise InputError(f"{name}: must be valid TOML: {one_line(problem)}") from None
 
 
 def parse_scene(text: str, name: str, fidelity: str | None = None) -> SceneFile:
     """Check a scene given as TOML text; ``name`` stands for the file in error messages."""
-    try:
-        table = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as problem:
-        raise InputError(f"{name}: must be valid TOML: {one_line(problem)}") from None
+    return check_scene(parse_table(text, name), name, fidelity)
+
+
+def check_scene(table: dict[str, Any], name: str, fidelity: str | None = None) -> SceneFile:
+    """Check a scene given as the table that its TOML holds; see `parse_scene`."""
     with located(name):
         keys = check_keys(table)
         tolerance = None if fidelity not in (None, AUTO) else keys.tolerance

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
@@ -14,6 +15,7 @@ __all__ = [
     "Angle",
     "Density",
     "GlueStiffness",
+    "Kind",
     "Length",
     "Modulus",
     "Multiple",
@@ -26,6 +28,13 @@ __all__ = [
 ]
 
 MAX_POINTS = 10_000
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a value with a unit measures: a key of `morphing_wing.units.KINDS`."""
+
+    name: str
 
 
 def measured(kind: str) -> BeforeValidator:
@@ -86,14 +95,14 @@ def evenly_spaced(table: dict[str, Any], kind: str) -> tuple[float, ...]:
     return (first, *inner, last)
 
 
-Length = Annotated[float, measured("length")]
-Angle = Annotated[float, measured("angle")]
-GlueStiffness = Annotated[float, measured("stiffness per area")]
-Toughness = Annotated[float, measured("energy per area")]
-Modulus = Annotated[float, measured("pressure")]
-Density = Annotated[float, measured("density")]
+Length = Annotated[float, measured("length"), Kind("length")]
+Angle = Annotated[float, measured("angle"), Kind("angle")]
+GlueStiffness = Annotated[float, measured("stiffness per area"), Kind("stiffness per area")]
+Toughness = Annotated[float, measured("energy per area"), Kind("energy per area")]
+Modulus = Annotated[float, measured("pressure"), Kind("pressure")]
+Density = Annotated[float, measured("density"), Kind("density")]
 Point = Annotated[list[Length], Field(min_length=3, max_length=3)]
-Pressure = Annotated[tuple[float, ...], load("pressure")]
-Torque = Annotated[tuple[float, ...], load("torque")]
-Tension = Annotated[tuple[float, ...], load("force")]
+Pressure = Annotated[tuple[float, ...], load("pressure"), Kind("pressure")]
+Torque = Annotated[tuple[float, ...], load("torque"), Kind("torque")]
+Tension = Annotated[tuple[float, ...], load("force"), Kind("force")]
 Multiple = Annotated[tuple[float, ...], load("multiple")]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -43,6 +43,7 @@ class ExternalWork:
         self._load: dict[str, float] = {}
         self._displacement: dict[str, float] = {}
         self._compliance: np.ndarray | None = None
+        self._first: np.ndarray | None = None
 
     def stand(self, load: Mapping[str, float], displacement: Mapping[str, float]) -> None:
         """Go on from a state without work on the way to it; its compliance is not known yet.
@@ -52,6 +53,8 @@ class ExternalWork:
         load, displacement
             Of each load in use its value and the displacement on which it works.
         """
+        if list(displacement) != self.names:
+            self._first = None
         self._displacement = dict(displacement)
         self._load = {name: load[name] for name in displacement}
         self._compliance = None
@@ -68,7 +71,24 @@ class ExternalWork:
 
     def learn(self, compliance: np.ndarray) -> None:
         """Take over the compliance where it stands, see `add`."""
+        if self._first is None:
+            self._first = compliance
         self._compliance = compliance
+
+    def stiffness_left(self, names: Sequence[str]) -> float:
+        r"""Return how stiff it is against some of its loads, over how stiff it was at first.
+
+        The least :math:`x \cdot C^{-1} x \,/\, x \cdot C_0^{-1} x` over all x, with the compliances
+        now and where the first step began: 0 at a limit point of these loads. Not a number where
+        one is not known.
+        """
+        if self._first is None or self._compliance is None:
+            return float("nan")
+        chosen = np.ix_(*2 * ([self.names.index(name) for name in names],))
+        first, now = self._first[chosen], self._compliance[chosen]
+        if not (np.isfinite(first).all() and np.isfinite(now).all()):
+            return float("nan")
+        return 1.0 / float(np.linalg.eigvals(np.linalg.solve(first, now)).real.max())
 
     def add(
         self, load: Mapping[str, float], displacement: Mapping[str, float], compliance: np.ndarray
