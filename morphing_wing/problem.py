@@ -1,0 +1,175 @@
+"""What is to be optimised: a goal, variables between bounds, constraints, rungs to compute on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from morphing_wing.case import Case
+from morphing_wing.case_outputs import OUTPUTS, check_outputs
+from morphing_wing.errors import InputError, require
+from morphing_wing.ladder import LADDERS
+from morphing_wing.scene_dimensions import column_of, unit_of
+from morphing_wing.scene_file import located
+
+__all__ = ["Constraint", "Goal", "Problem", "Variable"]
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What to do with one output: "maximize", "minimize", or "match" a target."""
+
+    kind: str
+    output: str
+    target: float | None = None
+
+    def cost(self, value: np.ndarray, scale: float) -> np.ndarray:
+        """Return what is to be minimised, without unit: the output over a scale of it.
+
+        Of a match the distance to the target squared.
+        """
+        if self.kind == "match":
+            return ((value - self.target) / scale) ** 2
+        return (-1.0 if self.kind == "maximize" else 1.0) * value / scale
+
+    def __str__(self) -> str:
+        """Return the goal in words."""
+        target = "" if self.target is None else f" = {self.target:.6g}"
+        return f"{self.kind} {self.output}{target}"
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A key of the scene and the bounds of its value, in the package's unit."""
+
+    key: str
+    lowest: float
+    highest: float
+    column: str = ""
+    unit: str = ""
+
+    @property
+    def name(self) -> str:
+        """Last word of the key."""
+        return self.key.removeprefix("geometry.").removeprefix("loads.")
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """An output that must be at most ("max") or at least ("min") a limit.
+
+    ``limit`` is None where that is what the starting design has, on the same rung.
+    """
+
+    output: str
+    side: str
+    limit: float | None = None
+
+    def __str__(self) -> str:
+        """Return the constraint in words."""
+        limit = "as at the start" if self.limit is None else f"{self.limit:.6g}"
+        return f"{self.output} {'<=' if self.side == 'max' else '>='} {limit}"
+
+    def violation(self, value: np.ndarray, limit: float) -> np.ndarray:
+        """Return by how much of the limit it is passed: positive where it is."""
+        over = (value - limit) / max(abs(limit), 1e-12)
+        return over if self.side == "max" else -over
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A problem of optimisation, checked.
+
+    Parameters
+    ----------
+    start
+        The design to begin with, which "as at the start" refers to.
+    goal, variables, constraints
+        What is sought, where, and subject to what.
+    rungs
+        Fidelities, cheapest first: each one corrects what the ones before have found.
+    evaluations
+        Most evaluations on each rung after the first.
+    tolerance
+        Gain of the goal, relative to its scale, that is not worth another evaluation.
+
+    Raises
+    ------
+    InputError
+        Where names, bounds or rungs do not fit the scene.
+    """
+
+    start: Case
+    goal: Goal
+    variables: tuple[Variable, ...]
+    constraints: tuple[Constraint, ...] = ()
+    rungs: tuple[str, ...] = ("instant",)
+    evaluations: int = 40
+    tolerance: float = 1e-3
+
+    def __post_init__(self) -> None:
+        """Check what a file can get wrong, and give the variables columns and units."""
+        scene, ladder = self.start.scene, LADDERS[self.start.scene]
+        if not self.variables:
+            raise InputError("variables: is empty, must have at least one key of the scene")
+        for rung in self.rungs:
+            require(rung in ladder, "rungs", rung, "", f"of {', '.join(ladder)}")
+        if sorted(set(self.rungs), key=ladder.index) != list(self.rungs):
+            raise InputError(f"rungs = {', '.join(self.rungs)}: must be in the order of "
+                             f"{', '.join(ladder)}, each once")
+        object.__setattr__(self, "variables", tuple(
+            Variable(v.key, v.lowest, v.highest, column_of(scene, v.key), unit_of(scene, v.key))
+            for v in self.variables))
+        for v in self.variables:
+            self._check(v)
+        for output in self.outputs:
+            if output not in OUTPUTS[scene]:  # by its own name, not by each rung
+                check_outputs(self.start.file, [output])
+        with located("start"):
+            check_outputs(self._at_last_rung().file, self.outputs)
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """All outputs that goal and constraints are about, the goal's first."""
+        return tuple(dict.fromkeys([self.goal.output, *(c.output for c in self.constraints)]))
+
+    @property
+    def lowest(self) -> np.ndarray:
+        """Lower bounds of all variables."""
+        return np.array([v.lowest for v in self.variables])
+
+    @property
+    def highest(self) -> np.ndarray:
+        """Upper bounds of all variables."""
+        return np.array([v.highest for v in self.variables])
+
+    @property
+    def first(self) -> np.ndarray:
+        """The variables' values at the start."""
+        return np.array([float(self.start.value(v.key)) for v in self.variables])
+
+    def case(self, values: np.ndarray, rung: str) -> Case:
+        """Return the case of the variables' values on a rung."""
+        return self.start.changed(
+            {"fidelity": rung}
+            | {v.key: float(x) for v, x in zip(self.variables, values, strict=True)})
+
+    def feasible(self, outputs: dict[str, float], limits: dict[Constraint, float]) -> bool:
+        """Whether outputs are known and no constraint is passed, but for rounding."""
+        return all(np.isfinite(outputs[name]) for name in self.outputs) and all(
+            c.violation(outputs[c.output], limits[c]) <= 1e-9 for c in self.constraints)
+
+    def _at_last_rung(self) -> Case:
+        return self.start.changed({"fidelity": self.rungs[-1]})
+
+    def _check(self, v: Variable) -> None:
+        where, unit = f"variables.{v.key}", v.unit
+        value = self.start.value(v.key)
+        if isinstance(value, bool) or not isinstance(value, float):
+            raise InputError(f"{where}: must be a key whose value is a number that can change "
+                             f"continuously, at the start it is {value!r}")
+        require(v.lowest < v.highest, f"{where}: from", v.lowest, unit,
+                f"less than to = {v.highest:.6g} {unit}".rstrip())
+        require(v.lowest <= value <= v.highest, f"{where} at the start", value, unit,
+                f"between from = {v.lowest:.6g} and to = {v.highest:.6g} {unit}".rstrip())

@@ -1,0 +1,258 @@
+"""Optimisation up a ladder of fidelities: what a rung finds, the next finer one corrects.
+
+The formula's rung is searched as a whole. On every other rung a model of all that is known, see
+`morphing_wing.layered_model`, is searched in a box around the best design so far, and the design
+that it promises is computed. Where the promise was good the box grows, where it was bad it shrinks
+(a trust region; with radial basis functions as an error model after March and Willcox 2012). Before
+a model is trusted, points near the best design must span all directions. A rung is done when the
+model, corrected there, promises nothing more.
+
+The searches are generators that ask for designs and are sent outputs, so that they know nothing of
+solvers, files and processes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from morphing_wing.box_search import best_in_box
+from morphing_wing.errors import InputError
+from morphing_wing.layered_model import LayeredModel, unknown_direction
+from morphing_wing.problem import Constraint, Problem
+
+__all__ = ["Found", "Request", "climb"]
+
+BEGIN, BEGIN_CORRECTED, DONE_AT, LARGEST, CLOSED = 0.25, 0.1, 0.1, 0.5, 0.01
+"""Half widths of the box, of the variables' bounds: the first, with and without a corrected model;
+where nothing gained is the end; the largest; and where the search is given up."""
+
+EXACT = {"mass_g", "length_mm", "height_mm", "width_mm", "depth_mm"}
+ROOM, EXACT_ROOM = 1e-3, 2e-5
+"""Parts of a limit that models keep away from it: what is computed then holds it, though models err
+and values are rounded."""
+
+NEAR = 1e-3
+"""Points nearer than that to a known one, of the variables' bounds, tell nothing new."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A design to compute.
+
+    Attributes
+    ----------
+    rung
+        Fidelity.
+    values
+        Of the variables.
+    role
+        "start", "optimum below" (of the rung before), "support" (for the model), "candidate".
+    predicted
+        What the model promises of the goal's output; None where there is no model.
+    """
+
+    rung: str
+    values: np.ndarray
+    role: str
+    predicted: float | None = None
+
+
+@dataclass
+class Found:
+    """What a rung has found.
+
+    Attributes
+    ----------
+    rung, values, outputs
+        The best design that was computed there, and its outputs in the problem's order.
+    start
+        Outputs of the starting design.
+    limits
+        Of each constraint, on this rung.
+    feasible
+        Whether the design holds all constraints.
+    reason
+        Why the search ended.
+    settled
+        Whether it ended because there was nothing more to gain.
+    """
+
+    rung: str
+    values: np.ndarray
+    outputs: np.ndarray
+    start: np.ndarray
+    limits: dict[Constraint, float]
+    feasible: bool
+    reason: str = ""
+    settled: bool = True
+
+
+Search = Generator[Request, "np.ndarray | None", Found]
+
+
+def climb(problem: Problem) -> Generator[Request, np.ndarray | None, list[Found]]:
+    """Search rung after rung; yield designs, be sent their outputs or None, return what was found.
+
+    Raises
+    ------
+    InputError
+        If the starting design cannot be computed on a rung.
+    """
+    model, found = LayeredModel(problem), []
+    for rung in problem.rungs:
+        seen = _Seen(problem, rung, model)
+        yield from seen.ask(model.inside(problem.first), "start")
+        if rung == "instant" and model.known[0]:
+            found.append((yield from _by_formula(seen)))
+            continue
+        found.append((yield from _by_trust_region(seen, found[-1] if found else None)))
+        model = seen.model
+    return found
+
+
+@dataclass
+class _Seen:
+    """Designs that were computed on a rung, as points of the unit cube."""
+
+    problem: Problem
+    rung: str
+    below: LayeredModel
+    points: list[np.ndarray] = field(default_factory=list)
+    outputs: list[np.ndarray] = field(default_factory=list)
+    limits: dict[Constraint, float] = field(default_factory=dict)
+    scale: float = 1.0
+    asked: int = 0
+
+    def ask(
+        self, point: np.ndarray, role: str, predicted: float | None = None
+    ) -> Generator[Request, np.ndarray | None, bool]:
+        """Have a design computed, and return whether there is anything known of it."""
+        values = self.below.values(np.clip(point, 0.0, 1.0))
+        outputs = yield Request(self.rung, values, role, predicted)
+        self.asked += 1
+        if outputs is None or not np.isfinite(outputs).all():
+            if role == "start":
+                raise InputError(f"start: must be a design that can be computed on the rung "
+                                 f"{self.rung!r}")
+            return False
+        self.points.append(self.below.inside(values))
+        self.outputs.append(np.asarray(outputs, dtype=float))
+        if role == "start":
+            self._measure()
+        return True
+
+    def _measure(self) -> None:
+        problem, start = self.problem, self.outputs[0]
+        self.limits = {c: c.limit if c.limit is not None
+                       else float(start[problem.outputs.index(c.output)])
+                       for c in problem.constraints}
+        goal = problem.goal
+        self.scale = abs(start[0] if goal.target is None else goal.target) or 1.0
+
+    @property
+    def model(self) -> LayeredModel:
+        return self.below.with_layer(np.array(self.points), np.array(self.outputs))
+
+    def judged(self, outputs: np.ndarray, room: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """Return costs (n,) and violations (n, constraints), with some room to the limits."""
+        problem = self.problem
+        columns = []
+        for c, limit in self.limits.items():
+            kept = (EXACT_ROOM if c.output in EXACT else ROOM) if room else -1e-9
+            columns.append(c.violation(outputs[:, problem.outputs.index(c.output)], limit) + kept)
+        violations = np.stack(columns, axis=1) if columns else np.zeros((len(outputs), 0))
+        return problem.goal.cost(outputs[:, 0], self.scale), violations
+
+    def merits(self, outputs: np.ndarray, room: bool = False) -> np.ndarray:
+        """Return costs with a penalty: what a trust region compares."""
+        costs, violations = self.judged(outputs, room)
+        return costs + 10.0 * violations.max(axis=1, initial=0.0)
+
+    def best(self) -> int:
+        """Return the place of the best design: one that holds all, else that passes least."""
+        costs, violations = self.judged(np.array(self.outputs))
+        return int(np.lexsort((costs, violations.max(axis=1, initial=0.0)))[0])
+
+    def found(self, reason: str, settled: bool) -> Found:
+        place = self.best()
+        outputs = self.outputs[place]
+        holds = self.judged(outputs[None])[1].max(initial=0.0) <= 0.0
+        return Found(self.rung, self.below.values(self.points[place]), outputs, self.outputs[0],
+                     self.limits, bool(holds), reason, settled)
+
+    def promised(self, model: LayeredModel, centre: np.ndarray, radius: float) -> np.ndarray:
+        """Return the model's best design in a box."""
+        known = np.array([model.known[self.problem.outputs.index(c.output)] for c in self.limits],
+                         dtype=bool)
+
+        def pieces(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            costs, violations = self.judged(model(points), room=True)
+            return costs, np.where(known, violations, -1.0)
+
+        return best_in_box(pieces, np.clip(centre - radius, 0.0, 1.0),
+                           np.clip(centre + radius, 0.0, 1.0), [centre])
+
+    def is_known(self, point: np.ndarray) -> bool:
+        return bool((np.abs(np.array(self.points) - point).max(axis=1) < NEAR).any())
+
+
+def _by_formula(seen: _Seen) -> Search:
+    """Search all of the formula, which costs nothing."""
+    best = seen.promised(seen.below, np.full(len(seen.points[0]), 0.5), 0.5)
+    yield from seen.ask(best, "candidate", float(seen.below(best[None])[0, 0]))
+    return seen.found("the best of all between the bounds", True)
+
+
+def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
+    """Search a corrected model in a box that moves with the best design."""
+    if below is not None and not seen.is_known(seen.below.inside(below.values)):
+        yield from seen.ask(seen.below.inside(below.values), "optimum below",
+                            None)
+    radius = BEGIN if below is None or below.rung == "instant" else BEGIN_CORRECTED
+    failed: list[np.ndarray] = []
+    while seen.asked < seen.problem.evaluations:
+        place = seen.best()
+        centre = seen.points[place]
+        direction = unknown_direction(np.array([*seen.points, *failed]), centre, radius)
+        if direction is not None:
+            support = _support(seen, centre, radius * direction)
+            if not (yield from seen.ask(support, "support")):
+                failed.append(seen.below.inside(seen.below.values(support)))
+            continue
+        model = seen.model
+        point = seen.promised(model, centre, radius)
+        now = seen.merits(seen.outputs[place][None])[0]
+        promise = model(point[None])
+        gain = now - seen.merits(promise)[0]
+        if gain < seen.problem.tolerance or seen.is_known(point):
+            if radius <= DONE_AT:
+                return seen.found(f"within {100 * radius:.0f} % of the bounds around it nothing "
+                                  f"is worth {100 * seen.problem.tolerance:g} % more", True)
+            radius = max(0.5 * radius, DONE_AT)
+            continue
+        if (yield from seen.ask(point, "candidate", float(promise[0, 0]))):
+            kept = (now - seen.merits(seen.outputs[-1][None])[0]) / gain
+        else:
+            kept = -1.0
+            failed.append(point)
+        far = np.abs(point - centre).max() > 0.9 * radius
+        if kept > 0.7 and far:
+            radius = min(2.0 * radius, LARGEST)
+        elif kept < 0.1:
+            radius *= 0.5
+        if radius < CLOSED:
+            return seen.found("what the model promises does not come true nearby", False)
+    return seen.found(f"{seen.asked} evaluations were made", False)
+
+
+def _support(seen: _Seen, centre: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Return the centre moved by a step, forwards or backwards: inside, and the better promise."""
+    ways = np.array([np.clip(centre + step, 0.0, 1.0), np.clip(centre - step, 0.0, 1.0)])
+    lengths = np.linalg.norm(ways - centre, axis=1)
+    if lengths.min() < 0.5 * lengths.max():
+        return ways[int(np.argmax(lengths))]
+    merits = seen.merits(seen.below(ways), room=True)
+    return ways[int(np.argmin(np.where(np.isfinite(merits), merits, np.inf)))]
