@@ -21,6 +21,7 @@ import numpy as np
 from morphing_wing.box_search import best_in_box
 from morphing_wing.errors import InputError
 from morphing_wing.layered_model import LayeredModel, unknown_direction
+from morphing_wing.prices import prices
 from morphing_wing.problem import Constraint, Problem
 
 __all__ = ["Found", "Request", "climb"]
@@ -60,48 +61,55 @@ class Request:
     predicted: float | None = None
 
 
-@dataclass
+@dataclass(frozen=True)
 class Found:
-    """What a rung has found.
+    """What the search of a rung has found.
 
     Attributes
     ----------
-    rung, values, outputs
-        The best design that was computed there, and its outputs in the problem's order.
-    start
-        Outputs of the starting design.
-    limits
-        Of each constraint, on this rung.
-    feasible
-        Whether the design holds all constraints.
+    rung
+        Its fidelity.
+    values
+        Of the variables: the best design that was computed there.
     reason
         Why the search ended.
     settled
         Whether it ended because there was nothing more to gain.
+    prices
+        See `morphing_wing.prices.prices`; empty where the goal is to match.
+    residual
+        Part of the goal's slope that active limits do not hold: next to 0 at an optimum.
     """
 
     rung: str
     values: np.ndarray
-    outputs: np.ndarray
-    start: np.ndarray
-    limits: dict[Constraint, float]
-    feasible: bool
-    reason: str = ""
-    settled: bool = True
+    reason: str
+    settled: bool
+    prices: dict[str, float]
+    residual: float
 
 
 Search = Generator[Request, "np.ndarray | None", Found]
 
 
-def climb(problem: Problem) -> Generator[Request, np.ndarray | None, list[Found]]:
-    """Search rung after rung; yield designs, be sent their outputs or None, return what was found.
+def climb(
+    problem: Problem, found: list[Found]
+) -> Generator[Request, np.ndarray | None, None]:
+    """Search rung after rung: yield designs, be sent their outputs, or None where there are none.
+
+    Parameters
+    ----------
+    problem
+        What is sought.
+    found
+        Each rung's find is appended as soon as it is searched.
 
     Raises
     ------
     InputError
         If the starting design cannot be computed on a rung.
     """
-    model, found = LayeredModel(problem), []
+    model = LayeredModel(problem)
     for rung in problem.rungs:
         seen = _Seen(problem, rung, model)
         yield from seen.ask(model.inside(problem.first), "start")
@@ -110,7 +118,6 @@ def climb(problem: Problem) -> Generator[Request, np.ndarray | None, list[Found]
             continue
         found.append((yield from _by_trust_region(seen, found[-1] if found else None)))
         model = seen.model
-    return found
 
 
 @dataclass
@@ -176,12 +183,15 @@ class _Seen:
         costs, violations = self.judged(np.array(self.outputs))
         return int(np.lexsort((costs, violations.max(axis=1, initial=0.0)))[0])
 
-    def found(self, reason: str, settled: bool) -> Found:
-        place = self.best()
-        outputs = self.outputs[place]
-        holds = self.judged(outputs[None])[1].max(initial=0.0) <= 0.0
-        return Found(self.rung, self.below.values(self.points[place]), outputs, self.outputs[0],
-                     self.limits, bool(holds), reason, settled)
+    def found(self, model: LayeredModel, reason: str, settled: bool) -> Found:
+        """Return the best design, and by a model what each of its limits costs."""
+        point, limits = self.points[self.best()], self.limits
+        if self.problem.goal.kind == "match":
+            worth, residual = {}, 0.0
+        else:
+            worth, residual = prices(
+                self.problem, limits, self.scale, point, lambda x: self.judged(model(x)))
+        return Found(self.rung, self.below.values(point), reason, settled, worth, residual)
 
     def promised(self, model: LayeredModel, centre: np.ndarray, radius: float) -> np.ndarray:
         """Return the model's best design in a box."""
@@ -203,14 +213,13 @@ def _by_formula(seen: _Seen) -> Search:
     """Search all of the formula, which costs nothing."""
     best = seen.promised(seen.below, np.full(len(seen.points[0]), 0.5), 0.5)
     yield from seen.ask(best, "candidate", float(seen.below(best[None])[0, 0]))
-    return seen.found("the best of all between the bounds", True)
+    return seen.found(seen.below, "the best of all between the bounds", True)
 
 
 def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
     """Search a corrected model in a box that moves with the best design."""
     if below is not None and not seen.is_known(seen.below.inside(below.values)):
-        yield from seen.ask(seen.below.inside(below.values), "optimum below",
-                            None)
+        yield from seen.ask(seen.below.inside(below.values), "optimum below")
     radius = BEGIN if below is None or below.rung == "instant" else BEGIN_CORRECTED
     failed: list[np.ndarray] = []
     while seen.asked < seen.problem.evaluations:
@@ -229,8 +238,9 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
         gain = now - seen.merits(promise)[0]
         if gain < seen.problem.tolerance or seen.is_known(point):
             if radius <= DONE_AT:
-                return seen.found(f"within {100 * radius:.0f} % of the bounds around it nothing "
-                                  f"is worth {100 * seen.problem.tolerance:g} % more", True)
+                return seen.found(
+                    model, f"within {100 * radius:.0f} % of the bounds around it nothing promises "
+                    f"{100 * seen.problem.tolerance:g} % more", True)
             radius = max(0.5 * radius, DONE_AT)
             continue
         if (yield from seen.ask(point, "candidate", float(promise[0, 0]))):
@@ -244,8 +254,8 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
         elif kept < 0.1:
             radius *= 0.5
         if radius < CLOSED:
-            return seen.found("what the model promises does not come true nearby", False)
-    return seen.found(f"{seen.asked} evaluations were made", False)
+            return seen.found(model, "what the model promises does not come true nearby", False)
+    return seen.found(seen.model, f"{seen.asked} evaluations were made", False)
 
 
 def _support(seen: _Seen, centre: np.ndarray, step: np.ndarray) -> np.ndarray:
