@@ -207,7 +207,8 @@ def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[
             found["refused"] = one_line(problem)
         except Exception as problem:  # one bad case must not end a thousand others
             found["stopped"] = f"unexpected {type(problem).__name__}: {one_line(problem)}"
-    gc.collect()  # a scene's matrices and factors go together
+    if found["dofs"]:
+        gc.collect()  # a scene's matrices and factors go together
     ours = (w for w in said if issubclass(w.category, UserWarning))
     found["warned"] = "; ".join(dict.fromkeys(one_line(w.message) for w in ours))
     return found | {"seconds": time.perf_counter() - begin}
