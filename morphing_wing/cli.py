@@ -20,6 +20,7 @@ from mpi4py import MPI
 
 from morphing_wing.built_in import built_in_scenes
 from morphing_wing.errors import InputError, one_line, require
+from morphing_wing.optimize_command import optimize
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
 from morphing_wing.together import (
@@ -153,6 +154,7 @@ def scenes(
 app.command()(paper)
 app.command()(verify)
 app.command()(tradeoff)
+app.command()(optimize)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

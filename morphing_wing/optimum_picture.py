@@ -29,7 +29,7 @@ _WORDS = {
     "ballooning_margin": "margin to ballooning", "rib_stress_MPa": "stress in the resin, MPa",
     "energy_Nmm": "stored energy, N mm", "material_stability": "stability of the law",
 }
-CELLS = 3
+CELLS = 6
 
 
 def draw(optimum: Optimum, file: str | os.PathLike) -> pathlib.Path:
@@ -159,11 +159,18 @@ def _limits(axes: Axes, optimum: Optimum) -> None:
         price = prices.get(f"{c.output} {c.side}", 0.0)
         words = [f"{_word(c.output)} {'at most' if c.side == 'max' else 'at least'} {limit:.4g}"]
         if price:
-            words.append(f"one more is worth {price:.3g}")
+            one = f"1 {_unit(c.output)}" if _unit(c.output) else "0.01"
+            worth = price if _unit(c.output) else 0.01 * price
+            words.append(f"{one} is worth {worth:.2g} {_unit(optimum.problem.goal.output)}")
         axes.text(0.02, place + 0.34, ", ".join(words), fontsize=8.5, va="bottom", color="#222")
     axes.axvline(1.0, color="#111", linewidth=1.2)
     axes.set(yticks=[], xlim=(0.0, 1.25), ylim=(-0.6, len(y) - 0.1))
     axes.grid(False)
+
+
+def _unit(output: str) -> str:
+    return next((unit for unit in ("deg", "mm", "MPa", "Nmm", "N", "g")
+                 if output.endswith(f"_{unit}")), "")
 
 
 def _used(c: Any, value: float, limit: float) -> float:
@@ -179,22 +186,22 @@ def _sections(axes: Axes, optimum: Optimum) -> None:
     for geometry, colour, label in ((first, _OLD, "start"),
                                     (optimum.design().file.geometry, _NEW, "best")):
         g = geometry
-        length = CELLS * g.pitch + g.wall_length
+        length = min(CELLS, g.n_cells) * g.pitch + g.wall_length
         axes.add_patch(Rectangle((left, -g.height / 2), length, g.height, color=colour))
-        for cell in range(CELLS):
+        for cell in range(min(CELLS, g.n_cells)):
             corner = left + g.wall_length + cell * g.pitch
             for low in _floors(g):
                 axes.add_patch(Rectangle((corner, low), g.cavity_length, g.cavity_height,
                                          color="white"))
-        axes.text(left, first.height / 2 + 1.5, f"{label}: {CELLS} of {g.n_cells} cells, along "
-                  "the span", fontsize=9.5)
-        left += max(CELLS * first.pitch + first.wall_length, length) + 14.0
+        shown = min(CELLS, g.n_cells)
+        axes.text(left, first.height / 2 + 1.5, f"{label}: {shown} of {g.n_cells} cells, and "
+                  "across", fontsize=9.5)
+        left += length + 3.0
         axes.add_patch(Rectangle((left, -g.height / 2), g.width, g.height, color=colour))
         for low in _floors(g):
             axes.add_patch(Rectangle((left + g.side_thickness, low), g.cavity_width,
                                      g.cavity_height, color="white"))
-        axes.text(left, first.height / 2 + 1.5, f"{label}: across", fontsize=9.5)
-        left += max(first.width, g.width) + 10.0
+        left += g.width + 9.0
     axes.set_xlim(-1.0, left - 8.0)
     axes.set_ylim(-first.height / 2 - 2.0, first.height / 2 + 5.0)
     axes.set_aspect("equal")
