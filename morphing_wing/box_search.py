@@ -14,7 +14,7 @@ Pieces = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 """Points (n, d) -> costs (n,), and violations (n, constraints): at most 0 where they hold."""
 
 SAMPLES = 4096
-STARTS = 6
+STARTS = 4
 STEP = 1e-6
 HOLDS = 1e-8
 
@@ -63,19 +63,26 @@ def _ranked(pieces: Pieces, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 def _climbed(pieces: Pieces, start: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
     """Return where SLSQP ends; slopes by central differences, of all points in one call."""
     d = len(start)
+    steps = STEP * np.vstack([np.zeros(d), np.eye(d), -np.eye(d)])
+    last: dict[str, np.ndarray] = {}
 
-    def slopes(point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        steps = STEP * np.eye(d)
-        costs, violations = pieces(np.vstack([point + steps, point - steps]))
-        return (costs[:d] - costs[d:]) / (2 * STEP), (violations[:d] - violations[d:]) / (2 * STEP)
+    def at(x: np.ndarray) -> dict[str, np.ndarray]:
+        # SLSQP asks for cost, limits and the slopes of both one after the other.
+        if "x" not in last or not np.array_equal(x, last["x"]):
+            costs, over = pieces(x + steps)
+            last.update(
+                x=x.copy(), cost=costs[0], over=over[0],
+                cost_slope=(costs[1 : d + 1] - costs[d + 1 :]) / (2 * STEP),
+                over_slope=(over[1 : d + 1] - over[d + 1 :]) / (2 * STEP))
+        return last
 
     try:
         found = minimize(
-            lambda x: pieces(x[None])[0][0], start, jac=lambda x: slopes(x)[0], method="SLSQP",
+            lambda x: at(x)["cost"], start, jac=lambda x: at(x)["cost_slope"], method="SLSQP",
             bounds=list(zip(low, high, strict=True)),
-            constraints={"type": "ineq", "fun": lambda x: -pieces(x[None])[1][0],
-                         "jac": lambda x: -slopes(x)[1].T},
-            options={"maxiter": 200, "ftol": 1e-10})
+            constraints={"type": "ineq", "fun": lambda x: -at(x)["over"],
+                         "jac": lambda x: -at(x)["over_slope"].T},
+            options={"maxiter": 100, "ftol": 1e-10})
     except ValueError:  # where the model ends
         return start
     return np.clip(found.x, low, high) if np.isfinite(found.x).all() else start

@@ -52,9 +52,11 @@ class BroadcastFormula:
             if name not in values:
                 raise InputError(f"{name}: unknown parameter, must be one of {', '.join(values)}")
             value, (unit, allowed) = np.asarray(given), rules[name]
-            require(value.dtype.kind in "iuf", name, str(value), "", "numbers")
-            bad = value[~allowed.test(value)]
-            require(bad.size == 0, name, bad.flat[0] if bad.size else 0, unit, allowed.words)
+            if value.dtype.kind not in "iuf":
+                require(False, name, str(value), "", "numbers")
+            fine = allowed.test(value)
+            if not fine.all():
+                require(False, name, value[~fine].flat[0], unit, allowed.words)
         self._values = {name: np.asarray(value, dtype=float)
                         for name, value in {**values, **changes}.items()}
 

@@ -7,7 +7,7 @@ fast. There are none where a scene has no formula, or a key is none of the formu
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,8 @@ from morphing_wing.geometry.spar import SparGeometry
 __all__ = ["formula_outputs"]
 
 Values = Mapping[str, np.ndarray]
+Ways = dict[str, Callable[[], Any]]
+"""Of each output, what computes it."""
 
 _LISTED = "elastomer.coefficients."
 _LOADS = {"spar": "upper", "rib": "torque"}
@@ -34,7 +36,9 @@ _KNOWN = {
 }
 
 
-def formula_outputs(case: Case, values: Values) -> dict[str, np.ndarray]:
+def formula_outputs(
+    case: Case, values: Values, names: Sequence[str] | None = None
+) -> dict[str, np.ndarray]:
     """Return what the formula tells of a case's changes, by the outputs' names.
 
     Parameters
@@ -43,6 +47,8 @@ def formula_outputs(case: Case, values: Values) -> dict[str, np.ndarray]:
         A spar under pressure in its upper chambers, or a rib under a moment.
     values
         Of keys with dots, arrays of one shape in the package's units.
+    names
+        Outputs to compute, as far as the formula tells them; None: all.
 
     Returns
     -------
@@ -54,14 +60,16 @@ def formula_outputs(case: Case, values: Values) -> dict[str, np.ndarray]:
     load = _LOADS.get(scene)
     if load is None or set(case.file.loads) != {load}:
         return {}
-    names = {key: _name(scene, key) for key in values}
-    if not set(names.values()) <= _KNOWN[scene] | {load, "density"}:
+    formulas = {key: _name(scene, key) for key in values}
+    if not set(formulas.values()) <= _KNOWN[scene] | {load, "density"}:
         return {}
     shape = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
-    given = {names[key]: np.broadcast_to(np.asarray(value, dtype=float), shape)
+    given = {formulas[key]: np.broadcast_to(np.asarray(value, dtype=float), shape)
              for key, value in values.items()}
     with np.errstate(invalid="ignore"):
-        return (_spar if scene == "spar" else _rib)(case, given, shape)
+        ways = (_spar if scene == "spar" else _rib)(case, given, shape)
+        found = {name: way() for name, way in ways.items() if names is None or name in names}
+    return {name: np.array(np.broadcast_to(value, shape)) for name, value in found.items()}
 
 
 def _name(scene: str, key: str) -> str:
@@ -76,7 +84,7 @@ def _name(scene: str, key: str) -> str:
     return name if group in ("geometry", "loads") else key
 
 
-def _spar(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+def _spar(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> Ways:
     file = case.file
     geometry, material = file.geometry, file.materials["material"]
     if geometry.wall_lengths is not None or file.loads["upper"][-1] < 0.0:
@@ -89,26 +97,26 @@ def _spar(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> dict[str
     formula = SparFormula(geometry, material, **_kept(given, fine))
     turn = np.where(fine, formula.turn(pressure), np.nan)
     angle = g["n_cells"] * turn
-    stretches = formula.stretches(turn)
     length = g["n_cells"] * g["cavity_length"] + (g["n_cells"] + 1) * g["wall_length"]
     height = 2 * (g["top_thickness"] + g["cavity_height"]) + g["middle_thickness"]
     width = g["cavity_width"] + 2 * g["side_thickness"]
     chambers = 2 * g["n_cells"] * g["cavity_length"] * g["cavity_height"] * g["cavity_width"]
-    found = {
-        "span_angle_deg": np.degrees(angle), "span_line_deg": arc_line(angle),
-        "energy_Nmm": formula.energy(turn), "pressure_MPa": pressure, "upper_MPa": pressure,
-        "ballooning_margin": formula.stiffness_left(turn),
-        "largest_stretch": stretches.max(axis=-1),
-        "mass_g": 1000.0 * mass_density(density) * (length * height * width - chambers),
-        "length_mm": length, "height_mm": height, "width_mm": width,
+    ways: Ways = {
+        "span_angle_deg": lambda: np.degrees(angle), "span_line_deg": lambda: arc_line(angle),
+        "energy_Nmm": lambda: formula.energy(turn), "pressure_MPa": lambda: pressure,
+        "external_work_Nmm": lambda: formula.energy(turn), "upper_MPa": lambda: pressure,
+        "ballooning_margin": lambda: formula.stiffness_left(turn),
+        "largest_stretch": lambda: formula.stretches(turn).max(axis=-1),
+        "mass_g": lambda: 1000 * mass_density(density) * (length * height * width - chambers),
+        "length_mm": lambda: length, "height_mm": lambda: height, "width_mm": lambda: width,
     }
-    if not any(name[0] == "C" for name in given):  # the law's own, of one law
-        found["material_stability"] = material.stability(
-            stretches, np.ones_like(stretches)).min(axis=-1)
-    return _whole(found, shape)
+    if not any(name[0] == "C" for name in given):  # the stability is of one law
+        ways["material_stability"] = lambda: material.stability(
+            stretches := formula.stretches(turn), np.ones_like(stretches)).min(axis=-1)
+    return ways
 
 
-def _rib(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+def _rib(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> Ways:
     file = case.file
     geometry, material = file.geometry, file.materials["material"]
     if geometry.layers != 3 or geometry.bosses:
@@ -130,12 +138,14 @@ def _rib(case: Case, given: dict[str, Any], shape: tuple[int, ...]) -> dict[str,
     cells = g["n_cells"]
     bars = 3 * cells * bar * thickness * (diameter if flush else thickness)
     pivots = (4 * (cells - 1) + 2 * cells) * (spacing - thickness) * np.pi * diameter**2 / 4
-    return _whole({
-        "chord_angle_deg": degrees, "chord_line_deg": arc_line(angle),
-        "energy_Nmm": 0.5 * torque * angle, "torque_Nmm": torque,
-        "mass_g": 1000.0 * mass_density(density) * (bars + pivots),
-        "length_mm": cells * pitch, "height_mm": height, "depth_mm": 2 * spacing + thickness,
-    }, shape)
+    return {
+        "chord_angle_deg": lambda: degrees, "chord_line_deg": lambda: arc_line(angle),
+        "energy_Nmm": lambda: 0.5 * torque * angle, "torque_Nmm": lambda: torque,
+        "external_work_Nmm": lambda: 0.5 * torque * angle,
+        "mass_g": lambda: 1000 * mass_density(density) * (bars + pivots),
+        "length_mm": lambda: cells * pitch, "height_mm": lambda: height,
+        "depth_mm": lambda: 2 * spacing + thickness,
+    }
 
 
 class _Lengths(dict):
@@ -161,7 +171,3 @@ def _kept(given: Values, fine: np.ndarray) -> dict[str, np.ndarray]:
     return {name: np.where(fine, value, np.broadcast_to(value, fine.shape)[place])
             for name, value in given.items()}
 
-
-def _whole(found: Values, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-    found = {name: np.array(np.broadcast_to(value, shape)) for name, value in found.items()}
-    return found | {"external_work_Nmm": found["energy_Nmm"]}

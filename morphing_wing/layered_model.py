@@ -75,7 +75,7 @@ class LayeredModel:
             low, high = self._problem.lowest, self._problem.highest
             values = low + points * (high - low)
             told = formula_outputs(self._case, {
-                v.key: values[:, i] for i, v in enumerate(self._problem.variables)})
+                v.key: values[:, i] for i, v in enumerate(self._problem.variables)}, names)
             for i, name in enumerate(names):
                 if name in told:
                     found[:, i] = told[name]

@@ -23,7 +23,7 @@ import pandas as pd
 import tomli_w
 from mpi4py import MPI
 
-from .case import Case, run_case
+from .case import ALWAYS, Case, run_case
 from .errors import InputError
 from .ladder import LADDERS
 from .optimum_picture import draw
@@ -190,7 +190,9 @@ def optimize(
             optimum.found, optimum.complete = comm.bcast(optimum.found, root=0), True
             return optimum
         row = _computed(problem, request, earlier, comm)
-        _limit(optimum, request, row)
+        if request.role == "start":
+            optimum.limits[request.rung] = problem.limits(request.rung, row)
+        row["feasible"] = problem.feasible(row, optimum.limits[request.rung])
         optimum.rows.append(row)
         if told is not None:
             told(row)
@@ -216,26 +218,13 @@ def _computed(
     """Return the row of a design: computed, or known from before."""
     values = {v.column: float(x) for v, x in zip(problem.variables, request.values, strict=True)}
     row = {"rung": request.rung, "role": request.role, **values}
-    known = earlier.get(_design(problem, row))
-    if known is not None:
-        outputs = {name: known[name] for name in (*problem.outputs, "dofs", "newton_iterations",
-                                                  "seconds", "refused", "stopped", "warned")}
-    else:
-        outputs = comm.bcast(
-            run_case(problem.case(request.values, request.rung), problem.outputs, comm), root=0)
-    return row | {name: outputs[name] for name in problem.outputs} | {
+    found = earlier.get(_design(problem, row))
+    if found is None:
+        case = problem.case(request.values, request.rung)
+        found = comm.bcast(run_case(case, problem.told(request.rung), comm), root=0)
+    return row | {name: found.get(name, np.nan) for name in problem.outputs} | {
         "feasible": False, "predicted": request.predicted,
-        **{name: outputs[name] for name in ("dofs", "newton_iterations", "seconds", "refused",
-                                            "stopped", "warned")}}
-
-
-def _limit(optimum: Optimum, request: Request, row: Row) -> None:
-    """Set the limits of a rung by its starting design, and say whether a design holds them."""
-    problem = optimum.problem
-    if request.role == "start":
-        optimum.limits[request.rung] = {
-            c: c.limit if c.limit is not None else row[c.output] for c in problem.constraints}
-    row["feasible"] = problem.feasible(row, optimum.limits[request.rung])
+        **{name: found[name] for name in ALWAYS}}
 
 
 def _design(problem: Problem, row: Mapping[str, Any]) -> tuple[Any, ...]:

@@ -57,7 +57,7 @@ def _variables(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, flo
                      f"{v.highest:.5g}", v.unit, ", ".join(held)))
     return text_table(
         f"Variables, on the rung {best['rung']!r}",
-        ("key", "from", "start", "best", "to", "unit", "a unit more of a bound is worth"), rows)
+        ("key", "from", "start", "best", "to", "unit", "a unit of the bound is worth"), rows)
 
 
 def _limits(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, float]) -> Table:
@@ -68,4 +68,4 @@ def _limits(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, float]
                      f"{'<=' if c.side == 'max' else '>='} {limit:.6g}",
                      "" if price is None else f"{np.round(price, 6):.3g}"))
     return text_table(f"Limits, on the rung {best['rung']!r}",
-                      ("output", "start", "best", "limit", "a unit more is worth"), rows)
+                      ("output", "start", "best", "limit", "a unit is worth"), rows)

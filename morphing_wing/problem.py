@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from morphing_wing.case import Case
-from morphing_wing.case_outputs import OUTPUTS, check_outputs
+from morphing_wing.case_outputs import check_outputs
 from morphing_wing.errors import InputError, require
 from morphing_wing.ladder import LADDERS
 from morphing_wing.scene_dimensions import column_of, unit_of
-from morphing_wing.scene_file import located
+from morphing_wing.scene_file import SceneFile
 
-__all__ = ["Constraint", "Goal", "Problem", "Variable"]
+__all__ = ["HOLDS", "Constraint", "Goal", "Problem", "Variable"]
+
+HOLDS = 1e-9
+"""Part of a limit by which rounding may pass it."""
 
 
 @dataclass(frozen=True)
@@ -123,11 +127,8 @@ class Problem:
             for v in self.variables))
         for v in self.variables:
             self._check(v)
-        for output in self.outputs:
-            if output not in OUTPUTS[scene]:  # by its own name, not by each rung
-                check_outputs(self.start.file, [output])
-        with located("start"):
-            check_outputs(self._at_last_rung().file, self.outputs)
+        check_outputs(self.start.changed({"fidelity": self.rungs[-1]}).file, self.outputs)
+        check_outputs(self.start.changed({"fidelity": self.rungs[0]}).file, [self.goal.output])
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -155,13 +156,21 @@ class Problem:
             {"fidelity": rung}
             | {v.key: float(x) for v, x in zip(self.variables, values, strict=True)})
 
-    def feasible(self, outputs: dict[str, float], limits: dict[Constraint, float]) -> bool:
-        """Whether outputs are known and no constraint is passed, but for rounding."""
-        return all(np.isfinite(outputs[name]) for name in self.outputs) and all(
-            c.violation(outputs[c.output], limits[c]) <= 1e-9 for c in self.constraints)
+    def told(self, rung: str) -> tuple[str, ...]:
+        """Return the outputs that a rung tells: the formulas do not know them all."""
+        file = self.start.changed({"fidelity": rung}).file
+        return tuple(name for name in self.outputs if is_told(file, name))
 
-    def _at_last_rung(self) -> Case:
-        return self.start.changed({"fidelity": self.rungs[-1]})
+    def limits(self, rung: str, start: Mapping[str, float]) -> dict[Constraint, float]:
+        """Return the limits of the constraints that a rung tells, by its starting design."""
+        told = self.told(rung)
+        return {c: c.limit if c.limit is not None else start[c.output]
+                for c in self.constraints if c.output in told}
+
+    @staticmethod
+    def feasible(outputs: Mapping[str, float], limits: Mapping[Constraint, float]) -> bool:
+        """Whether no limit is passed, but for rounding; what is not a number passes it."""
+        return all(c.violation(outputs[c.output], limit) <= HOLDS for c, limit in limits.items())
 
     def _check(self, v: Variable) -> None:
         where, unit = f"variables.{v.key}", v.unit
@@ -173,3 +182,12 @@ class Problem:
                 f"less than to = {v.highest:.6g} {unit}".rstrip())
         require(v.lowest <= value <= v.highest, f"{where} at the start", value, unit,
                 f"between from = {v.lowest:.6g} and to = {v.highest:.6g} {unit}".rstrip())
+
+
+def is_told(file: SceneFile, output: str) -> bool:
+    """Whether a scene at its fidelity tells of an output."""
+    try:
+        check_outputs(file, [output])
+    except InputError:
+        return False
+    return True

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from morphing_wing.box_search import best_in_box
 from morphing_wing.errors import InputError
 from morphing_wing.layered_model import LayeredModel, unknown_direction
 from morphing_wing.prices import prices
-from morphing_wing.problem import Constraint, Problem
+from morphing_wing.problem import HOLDS, Constraint, Problem
 
 __all__ = ["Found", "Request", "climb"]
 
@@ -140,7 +141,8 @@ class _Seen:
         values = self.below.values(np.clip(point, 0.0, 1.0))
         outputs = yield Request(self.rung, values, role, predicted)
         self.asked += 1
-        if outputs is None or not np.isfinite(outputs).all():
+        told = [name in self.told for name in self.problem.outputs]
+        if outputs is None or not np.isfinite(outputs[told]).all():
             if role == "start":
                 raise InputError(f"start: must be a design that can be computed on the rung "
                                  f"{self.rung!r}")
@@ -152,12 +154,14 @@ class _Seen:
         return True
 
     def _measure(self) -> None:
-        problem, start = self.problem, self.outputs[0]
-        self.limits = {c: c.limit if c.limit is not None
-                       else float(start[problem.outputs.index(c.output)])
-                       for c in problem.constraints}
-        goal = problem.goal
+        start, goal = self.outputs[0], self.problem.goal
+        self.limits = self.problem.limits(
+            self.rung, dict(zip(self.problem.outputs, start.tolist(), strict=True)))
         self.scale = abs(start[0] if goal.target is None else goal.target) or 1.0
+
+    @cached_property
+    def told(self) -> tuple[str, ...]:
+        return self.problem.told(self.rung)
 
     @property
     def model(self) -> LayeredModel:
@@ -169,7 +173,7 @@ class _Seen:
         columns = []
         for c, limit in self.limits.items():
             exact = c.output in EXACT or self.rung == "instant"
-            kept = (EXACT_ROOM if exact else ROOM) if room else -1e-9
+            kept = (EXACT_ROOM if exact else ROOM) if room else -HOLDS
             columns.append(c.violation(outputs[:, problem.outputs.index(c.output)], limit) + kept)
         violations = np.stack(columns, axis=1) if columns else np.zeros((len(outputs), 0))
         return problem.goal.cost(outputs[:, 0], self.scale), violations
