@@ -6,7 +6,7 @@ With the formula :math:`m_0` (zero where a scene has none) and on each finer run
 .. math:: m_l(x) = m_{l-1}(x) + d_l(x), \qquad d_l(x_i) = f_l(x_i) - m_{l-1}(x_i) ,
 
 where :math:`d_l` interpolates by cubic radial basis functions with a linear polynomial, and before
-there are points enough for that is the mean.
+there are points enough for that by linear ones with a constant.
 """
 
 from __future__ import annotations
@@ -113,11 +113,9 @@ def unknown_direction(points: np.ndarray, centre: np.ndarray, radius: float) -> 
 
 
 def _interpolated(points: np.ndarray, values: np.ndarray) -> Predict:
-    d = points.shape[1]
-    mean = values.mean(axis=0)
-    if len(points) > d:
+    if len(points) > points.shape[1]:
         try:
             return RBFInterpolator(points, values, kernel="cubic", degree=1)
         except LinAlgError:  # all in one plane
             pass
-    return lambda at: np.broadcast_to(mean, (len(at), len(mean)))
+    return RBFInterpolator(points, values, kernel="linear", degree=0)

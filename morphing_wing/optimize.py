@@ -240,4 +240,5 @@ def described(problem: Problem) -> dict[str, Any]:
         "constraints": [[c.output, c.side, c.limit] for c in problem.constraints],
         "rungs": [rung for rung in LADDERS[problem.start.scene] if rung in problem.rungs],
         "evaluations": problem.evaluations, "tolerance": problem.tolerance,
+        "own_slopes": problem.own_slopes,
     })

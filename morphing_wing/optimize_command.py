@@ -124,7 +124,7 @@ def earlier(folder: pathlib.Path, problem: Problem) -> list[dict[str, Any]]:
         raise InputError(f"--resume: {folder} must hold the summary.json and table.csv of a run "
                          "to go on with") from None
     now = described(problem)
-    for name in now.keys() - {"rungs", "evaluations", "tolerance"}:
+    for name in now.keys() - {"rungs", "evaluations", "tolerance", "own_slopes"}:
         if was.get(name) != now[name]:
             raise InputError(f"--resume: {folder} holds another problem, its {name} must be the "
                              "same")

@@ -47,9 +47,10 @@ def draw(optimum: Optimum, file: str | os.PathLike) -> pathlib.Path:
         _limits(figure.add_subplot(grid[1, 1]), optimum)
         if spar:
             _sections(figure.add_subplot(grid[2, :]), optimum)
-        figure.suptitle(f"{str(optimum.problem.goal).replace('_', ' ')}, "
-                        f"{len(optimum.rows)} designs computed", x=0.01, ha="left",
-                        fontweight="bold", fontsize=13)
+        goal = optimum.problem.goal
+        target = "" if goal.target is None else f" = {goal.target:.5g}"
+        figure.suptitle(f"{goal.kind} {_word(goal.output)}{target}: {len(optimum.rows)} designs "
+                        "computed", x=0.01, ha="left", fontweight="bold", fontsize=13)
         return save_figure(figure, file)
 
 
@@ -96,7 +97,8 @@ def _history(axes: Axes, optimum: Optimum) -> None:
         axes.axhline(goal.target, color="#111", linewidth=1.0, linestyle="--", label="target")
     axes.set(xlabel="evaluation", ylabel=_word(goal.output), xlim=(0.5, len(rows) + 0.5))
     axes.xaxis.get_major_locator().set_params(integer=True)
-    axes.legend(fontsize=8.5, loc="best", framealpha=0.9, frameon=True, edgecolor="none")
+    axes.legend(fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3,
+                columnspacing=1.4, handletextpad=0.5)
 
 
 def _rungs(axes: Axes, optimum: Optimum) -> None:
@@ -153,18 +155,18 @@ def _limits(axes: Axes, optimum: Optimum) -> None:
     y = np.arange(len(limits))[::-1]
     start = optimum.start((best or optimum.rows[-1])["rung"])
     for place, (c, limit) in zip(y, limits.items(), strict=True):
-        for shift, row, colour in ((0.17, start, _OLD), (-0.17, best, _NEW)):
+        for shift, row, colour in ((0.02, start, _OLD), (-0.22, best, _NEW)):
             if row is not None:
-                axes.barh(place + shift, _used(c, row[c.output], limit), height=0.3, color=colour)
+                axes.barh(place + shift, _used(c, row[c.output], limit), height=0.2, color=colour)
         price = prices.get(f"{c.output} {c.side}", 0.0)
         words = [f"{_word(c.output)} {'at most' if c.side == 'max' else 'at least'} {limit:.4g}"]
         if price:
             one = f"1 {_unit(c.output)}" if _unit(c.output) else "0.01"
             worth = price if _unit(c.output) else 0.01 * price
             words.append(f"{one} is worth {worth:.2g} {_unit(optimum.problem.goal.output)}")
-        axes.text(0.02, place + 0.34, ", ".join(words), fontsize=8.5, va="bottom", color="#222")
+        axes.text(0.0, place + 0.16, ", ".join(words), fontsize=8.5, va="bottom", color="#222")
     axes.axvline(1.0, color="#111", linewidth=1.2)
-    axes.set(yticks=[], xlim=(0.0, 1.25), ylim=(-0.6, len(y) - 0.1))
+    axes.set(yticks=[], xlim=(0.0, 1.25), ylim=(-0.5, len(y) - 0.4))
     axes.grid(False)
 
 

@@ -97,6 +97,9 @@ class Problem:
         Most evaluations on each rung after the first.
     tolerance
         Gain of the goal, relative to its scale, that is not worth another evaluation.
+    own_slopes
+        Whether every rung after the formula finds its own slopes, which takes a design a variable;
+        False: one after the first takes those of the rung before until a promise fails.
 
     Raises
     ------
@@ -111,6 +114,7 @@ class Problem:
     rungs: tuple[str, ...] = ("instant",)
     evaluations: int = 40
     tolerance: float = 1e-3
+    own_slopes: bool = False
 
     def __post_init__(self) -> None:
         """Check what a file can get wrong, and give the variables columns and units."""

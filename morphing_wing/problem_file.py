@@ -57,6 +57,7 @@ class ProblemKeys(Keys):
     target: Any = None
     evaluations: Annotated[int, Field(ge=5, le=10_000)] | None = None
     tolerance: Annotated[float, Field(ge=1e-6, le=0.1)] | None = None
+    own_slopes: bool | None = None
     start: dict[str, Any] = {}
     variables: dict[str, Any]
     constraints: dict[str, Any] = {}
@@ -114,7 +115,8 @@ def parse_problem(
         with located(START):
             scene = case.scene
         given = {"rungs": tuple(keys.rungs) if keys.rungs else None,
-                 "evaluations": keys.evaluations, "tolerance": keys.tolerance}
+                 "evaluations": keys.evaluations, "tolerance": keys.tolerance,
+                 "own_slopes": keys.own_slopes}
         return Problem(
             case, _goal(keys), tuple(_variable(scene, key, value) for key, value
                                      in flat(keys.variables).items()),

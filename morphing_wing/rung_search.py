@@ -4,8 +4,9 @@ The formula's rung is searched as a whole. On every other rung a model of all th
 `morphing_wing.layered_model`, is searched in a box around the best design so far, and the design
 that it promises is computed. Where the promise was good the box grows, where it was bad it shrinks
 (a trust region; with radial basis functions as an error model after March and Willcox 2012). Before
-a model is trusted, points near the best design must span all directions. A rung is done when the
-model, corrected there, promises nothing more.
+a formula is trusted, points near the best design must span all directions; the slopes of a rung
+that was searched so are trusted on the next one until a promise fails there. A rung is done when
+the model, corrected there, promises nothing more.
 
 The searches are generators that ask for designs and are sent outputs, so that they know nothing of
 solvers, files and processes.
@@ -35,6 +36,9 @@ EXACT = {"mass_g", "length_mm", "height_mm", "width_mm", "depth_mm"}
 ROOM, EXACT_ROOM = 1e-3, 2e-5
 """Parts of a limit that models keep away from it: what is computed then holds it, though models err
 and values are rounded."""
+
+TRUE = 0.7
+"""Part of a promised gain that must come true for a model to be called good."""
 
 NEAR = 1e-3
 """Points nearer than that to a known one, of the variables' bounds, tell nothing new."""
@@ -225,12 +229,15 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
     """Search a corrected model in a box that moves with the best design."""
     if below is not None and not seen.is_known(seen.below.inside(below.values)):
         yield from seen.ask(seen.below.inside(below.values), "optimum below")
-    radius = BEGIN if below is None or below.rung == "instant" else BEGIN_CORRECTED
+    corrected = below is not None and below.rung != "instant"
+    trusted = corrected and not seen.problem.own_slopes
+    radius = BEGIN_CORRECTED if corrected else BEGIN
     failed: list[np.ndarray] = []
     while seen.asked < seen.problem.evaluations:
         place = seen.best()
         centre = seen.points[place]
-        direction = unknown_direction(np.array([*seen.points, *failed]), centre, radius)
+        direction = None if trusted else unknown_direction(
+            np.array([*seen.points, *failed]), centre, radius)
         if direction is not None:
             support = _support(seen, centre, radius * direction)
             if not (yield from seen.ask(support, "support")):
@@ -243,9 +250,10 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
         gain = now - seen.merits(promise)[0]
         if gain < seen.problem.tolerance or seen.is_known(point):
             if radius <= DONE_AT:
+                slopes = f", by the slopes of {below.rung!r}" if trusted else ""
                 return seen.found(
                     model, f"within {100 * radius:.0f} % of the bounds around it nothing promises "
-                    f"{100 * seen.problem.tolerance:g} % more", True)
+                    f"{100 * seen.problem.tolerance:g} % more{slopes}", True)
             radius = max(0.5 * radius, DONE_AT)
             continue
         if (yield from seen.ask(point, "candidate", float(promise[0, 0]))):
@@ -253,8 +261,9 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
         else:
             kept = -1.0
             failed.append(point)
+        trusted = trusted and kept > TRUE
         far = np.abs(point - centre).max() > 0.9 * radius
-        if kept > 0.7 and far:
+        if kept > TRUE and far:
             radius = min(2.0 * radius, LARGEST)
         elif kept < 0.1:
             radius *= 0.5

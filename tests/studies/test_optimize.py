@@ -51,14 +51,14 @@ def by_formula(problem):
     return lambda values: formula_outputs(case, values)
 
 
-def driven(problem, finer):
+def driven(problem, finer, finest=None):
     """Return the designs of a search whose rungs after the formula are made up."""
+    told = {"instant": by_formula(problem), "cell": finer, "standard": finest or finer}
     found, rows = [], []
     search = climb(problem, found)
     request = next(search)
     while True:
-        told = by_formula(problem) if request.rung == "instant" else finer
-        outputs = told({v.key: np.array([x]) for v, x in zip(
+        outputs = told[request.rung]({v.key: np.array([x]) for v, x in zip(
             problem.variables, request.values, strict=True)})
         sent = np.array([outputs[name][0] for name in problem.outputs])
         rows.append((request, sent))
@@ -133,15 +133,26 @@ def test_a_finer_rung_that_disagrees_is_followed_to_its_own_optimum(name, most):
 
 def test_a_third_rung_that_agrees_with_the_second_takes_few_designs():
     problem = on("spar", "instant", "cell", "standard", evaluations=80)
-    finer, asked = disagreeing(problem), []
-
-    def told(values):
-        asked.append(values)
-        return finer(values)
-
-    _, rows = driven(problem, told)
+    _, rows = driven(problem, disagreeing(problem))
     counts = pd.Series([request.rung for request, _ in rows]).value_counts()
-    assert counts["standard"] <= 2 + len(problem.variables) + 2 < counts["cell"]
+    assert counts["standard"] <= 3 < 20 < counts["cell"]
+
+
+def test_a_third_rung_that_disagrees_as_well_is_followed_by_its_own_slopes():
+    problem = on("table2", "instant", "cell", "standard", evaluations=80, own_slopes=True)
+    second = disagreeing(problem)
+
+    def third(values):  # with its own mind about the top
+        outputs = dict(second(values))
+        outputs["span_angle_deg"] = outputs["span_angle_deg"] * (
+            0.5 + 3.0 * (values["geometry.top_thickness"] - 1.0))
+        return outputs
+
+    found, _ = driven(problem, second, third)
+    values = {v.key: np.array([x]) for v, x in zip(
+        problem.variables, found[-1].values, strict=True)}
+    assert found[-2].values[2] == 1.0 < found[-1].values[2]
+    assert third(values)["span_angle_deg"][0] > 0.998 * random_best(problem, third)
 
 
 def test_designs_that_cannot_be_computed_are_gone_round():
