@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-__all__ = ["built_in_problems", "built_in_scenes"]
+__all__ = ["built_in_problems", "built_in_scenes", "built_in_studies"]
 
 
 def built_in_scenes() -> dict[str, str]:
@@ -15,6 +15,11 @@ def built_in_scenes() -> dict[str, str]:
 def built_in_problems() -> dict[str, str]:
     """Return the TOML text of the built-in problems of optimisation by name."""
     return texts("problems")
+
+
+def built_in_studies() -> dict[str, str]:
+    """Return the TOML text of the built-in studies by name."""
+    return texts("studies")
 
 
 def texts(room: str) -> dict[str, str]:

@@ -13,7 +13,7 @@ from typing import Any
 
 from morphing_wing.worker_processes import ended, worker_pool, world_of_their_own
 
-__all__ = ["GONE", "by_mpi", "here", "in_processes"]
+__all__ = ["GONE", "by_mpi", "here", "in_processes", "petsc_alone"]
 
 Task = tuple[int, Any]
 Compute = Callable[[Any], dict[str, Any]]
@@ -89,6 +89,8 @@ def by_mpi(
 ) -> Iterator[tuple[int, dict[str, Any]]]:
     """Compute tasks by an executor of mpi4py.futures; one that fails raises.
 
+    Call `petsc_alone` on the root before.
+
     Parameters
     ----------
     compute, tasks
@@ -102,8 +104,24 @@ def by_mpi(
     while waiting or running:
         while waiting and len(running) < _AHEAD * workers:
             number, task = waiting.popleft()
-            running[pool.submit(compute, task)] = number
+            running[pool.submit(_alone, compute, task)] = number
         done, _ = concurrent.futures.wait(
             running, return_when=concurrent.futures.FIRST_COMPLETED)
         for future in done:
             yield running.pop(future), future.result()
+
+
+def petsc_alone() -> None:
+    """Begin PETSc for this process alone, unless it has begun.
+
+    Otherwise its beginning and its end wait for all ranks, and those deal with cases.
+    """
+    import petsc4py
+    from mpi4py import MPI
+
+    petsc4py.init(comm=MPI.COMM_SELF)
+
+
+def _alone(compute: Compute, task: Any) -> dict[str, Any]:
+    petsc_alone()
+    return compute(task)

@@ -23,6 +23,7 @@ from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.optimize_command import optimize
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
+from morphing_wing.study_command import studies, study, under_mpi_futures
 from morphing_wing.together import (
     BAD_INPUT,
     DONE,
@@ -154,6 +155,8 @@ def scenes(
 app.command()(paper)
 app.command()(verify)
 app.command()(tradeoff)
+app.command()(study)
+app.command()(studies)
 app.command()(optimize)
 
 
@@ -167,7 +170,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = sys.argv[1:] if argv is None else list(argv)
 
+    # Its other ranks wait for cases, and take no part in anything collective.
+    alone = under_mpi_futures()
+    comm = MPI.COMM_SELF if alone else MPI.COMM_WORLD
+
     def command() -> int:
+        if alone and arguments[:1] not in (["study"], ["studies"]):
+            raise InputError("python -m mpi4py.futures: must run study, other commands take mpirun "
+                             "alone")
         with warnings.catch_warnings():
             warnings.showwarning = warn_in_one_line
             status = app(arguments or ["--help"], prog_name="morphing-wing", standalone_mode=False)
@@ -175,7 +185,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise KeyboardInterrupt
         return status if isinstance(status, int) else DONE
 
-    return run_together(MPI.COMM_WORLD, command, explain)
+    return run_together(comm, command, explain)
 
 
 def explain(problem: BaseException) -> tuple[int, str]:

@@ -199,7 +199,7 @@ def optimize(
         if done is not None:
             on_root(comm, lambda: done(optimum))
         if request.role == "start" and (row["refused"] or row["stopped"]):
-            raise InputError(f"start: must be a design that can be computed on the rung "
+            raise InputError(f"base: must be a design that can be computed on the rung "
                              f"{request.rung!r}: {row['refused'] or row['stopped']}")
         sent = None if row["refused"] or row["stopped"] else np.array(
             [row[name] for name in problem.outputs])

@@ -57,7 +57,7 @@ def _variables(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, flo
                      f"{v.highest:.5g}", v.unit, ", ".join(held)))
     return text_table(
         f"Variables, on the rung {best['rung']!r}",
-        ("key", "from", "start", "best", "to", "unit", "a unit of the bound is worth"), rows)
+        ("key", "low", "start", "best", "high", "unit", "a unit of the bound is worth"), rows)
 
 
 def _limits(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, float]) -> Table:

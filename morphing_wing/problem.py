@@ -72,7 +72,7 @@ class Constraint:
 
     def __str__(self) -> str:
         """Return the constraint in words."""
-        limit = "as at the start" if self.limit is None else f"{self.limit:.6g}"
+        limit = "as of the base" if self.limit is None else f"{self.limit:.6g}"
         return f"{self.output} {'<=' if self.side == 'max' else '>='} {limit}"
 
     def violation(self, value: np.ndarray, limit: float) -> np.ndarray:
@@ -88,7 +88,7 @@ class Problem:
     Parameters
     ----------
     start
-        The design to begin with, which "as at the start" refers to.
+        The design to begin with, which "as of the base" refers to.
     goal, variables, constraints
         What is sought, where, and subject to what.
     rungs
@@ -181,11 +181,11 @@ class Problem:
         value = self.start.value(v.key)
         if isinstance(value, bool) or not isinstance(value, float):
             raise InputError(f"{where}: must be a key whose value is a number that can change "
-                             f"continuously, at the start it is {value!r}")
-        require(v.lowest < v.highest, f"{where}: from", v.lowest, unit,
-                f"less than to = {v.highest:.6g} {unit}".rstrip())
-        require(v.lowest <= value <= v.highest, f"{where} at the start", value, unit,
-                f"between from = {v.lowest:.6g} and to = {v.highest:.6g} {unit}".rstrip())
+                             f"continuously, of the base it is {value!r}")
+        require(v.lowest < v.highest, f"{where}: low", v.lowest, unit,
+                f"less than high = {v.highest:.6g} {unit}".rstrip())
+        require(v.lowest <= value <= v.highest, f"{where} of the base", value, unit,
+                f"between low = {v.lowest:.6g} and high = {v.highest:.6g} {unit}".rstrip())
 
 
 def is_told(file: SceneFile, output: str) -> bool:

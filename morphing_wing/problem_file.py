@@ -7,14 +7,14 @@ what must hold, and the rungs to compute on::
     maximize = "span_angle_deg"
     rungs = ["instant", "cell", "standard"]
 
-    [start]
-    "loads.upper" = "20 kPa"
+    [base]
+    loads.upper = "20 kPa"
 
     [variables]
-    "geometry.cavity_length" = { from = "2.0 mm", to = "2.8 mm" }
+    geometry.cavity_length = { low = "2.0 mm", high = "2.8 mm" }
 
     [constraints]
-    mass_g = { max = "start" }
+    mass_g = { max = "base" }
     largest_stretch = { max = 1.5 }
 """
 
@@ -39,8 +39,8 @@ from morphing_wing.units import quantity
 __all__ = ["parse_problem", "read_problem"]
 
 GOALS = ("maximize", "minimize", "match")
-START = "start"
-"""In place of a limit: what the starting design has."""
+BASE = "base"
+"""In place of a limit: what the design to start from has."""
 
 SUFFIXES = {"_Nmm": "energy", "_MPa": "pressure", "_deg": "angle", "_mm": "length", "_N": "force",
             "_g": "mass"}
@@ -49,7 +49,7 @@ SUFFIXES = {"_Nmm": "energy", "_MPa": "pressure", "_deg": "angle", "_mm": "lengt
 class ProblemKeys(Keys):
     """A problem file."""
 
-    scene: Text
+    scene: Any
     rungs: Annotated[list[Text], Field(min_length=1)] | None = None
     maximize: Text | None = None
     minimize: Text | None = None
@@ -58,7 +58,7 @@ class ProblemKeys(Keys):
     evaluations: Annotated[int, Field(ge=5, le=10_000)] | None = None
     tolerance: Annotated[float, Field(ge=1e-6, le=0.1)] | None = None
     own_slopes: bool | None = None
-    start: dict[str, Any] = {}
+    base: dict[str, Any] = {}
     variables: dict[str, Any]
     constraints: dict[str, Any] = {}
 
@@ -66,8 +66,8 @@ class ProblemKeys(Keys):
 class RangeKeys(Keys):
     """Bounds of a variable."""
 
-    from_: Any = Field(alias="from")
-    to: Any
+    low: Any
+    high: Any
 
 
 class LimitKeys(Keys):
@@ -110,9 +110,8 @@ def parse_problem(
     """
     with located(name):
         keys = _validated(ProblemKeys, dict(table), "")
-        beside = pathlib.Path(folder) / keys.scene
-        case = Case.of(str(beside) if beside.is_file() else keys.scene, flat(keys.start))
-        with located(START):
+        case = Case.of(_scene(keys.scene, folder), flat(keys.base))
+        with located(BASE):
             scene = case.scene
         given = {"rungs": tuple(keys.rungs) if keys.rungs else None,
                  "evaluations": keys.evaluations, "tolerance": keys.tolerance,
@@ -128,9 +127,20 @@ def flat(table: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     """Return tables within tables as keys with dots, down to bounds and ranges."""
     found: dict[str, Any] = {}
     for key, value in table.items():
-        inner = isinstance(value, Mapping) and not {"from", "to"} & set(value)
+        inner = isinstance(value, Mapping) and not {"low", "high", "to"} & set(value)
         found |= flat(value, f"{before}{key}.") if inner else {f"{before}{key}": value}
     return found
+
+
+def _scene(given: Any, folder: str | pathlib.Path) -> str | Mapping[str, Any]:
+    """Return a scene's table, the name of a built-in one, or a file beside the problem's."""
+    if isinstance(given, Mapping):
+        return given
+    if not isinstance(given, str):
+        raise InputError(f"scene = {plain(given)}: must be a scene file, a built-in scene's name, "
+                         "or a scene file's table")
+    beside = pathlib.Path(folder) / given
+    return str(beside) if beside.is_file() else given
 
 
 def _goal(keys: ProblemKeys) -> Goal:
@@ -151,10 +161,10 @@ def _variable(scene: str, key: str, value: Any) -> Variable:
     if not isinstance(value, Mapping):
         example = "1.0" if kind is None else '"1.0 mm"'
         raise InputError(f"{where} = {plain(value)}: must be written as "
-                         f"{{ from = {example}, to = ... }}")
+                         f"{{ low = {example}, high = ... }}")
     bounds = _validated(RangeKeys, dict(value), where)
     return Variable(key, *(_number(bound, kind, f"{where}.{end}") for end, bound
-                           in (("from", bounds.from_), ("to", bounds.to))))
+                           in (("low", bounds.low), ("high", bounds.high))))
 
 
 def _limits(output: str, value: Any) -> list[Constraint]:
@@ -165,7 +175,7 @@ def _limits(output: str, value: Any) -> list[Constraint]:
     given = _validated(LimitKeys, dict(value), where).given()
     if not given:
         raise InputError(f"{where}: is empty, must have min, max or both")
-    return [Constraint(output, side, None if limit == START
+    return [Constraint(output, side, None if limit == BASE
                        else _measured(output, limit, f"{where}.{side}"))
             for side, limit in given.items()]
 
@@ -196,7 +206,6 @@ def _validated(model: type[Keys], table: dict[str, Any], where: str) -> Any:
     if error["type"] == "missing":
         raise InputError(f"{place}: is missing, must be given")
     if error["type"] == "extra_forbidden":
-        names = (field.alias or name for name, field in model.model_fields.items())
-        raise InputError(f"{place}: unknown key, must be {one_of(names)}")
+        raise InputError(f"{place}: unknown key, must be {one_of(model.model_fields)}")
     said = error["msg"].replace("Input should", "must").replace("List should", "must")
     raise InputError(f"{place} = {plain(error['input'])}: {said}")

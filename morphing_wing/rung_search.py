@@ -148,7 +148,7 @@ class _Seen:
         told = [name in self.told for name in self.problem.outputs]
         if outputs is None or not np.isfinite(outputs[told]).all():
             if role == "start":
-                raise InputError(f"start: must be a design that can be computed on the rung "
+                raise InputError(f"base: must be a design that can be computed on the rung "
                                  f"{self.rung!r}")
             return False
         self.points.append(self.below.inside(values))

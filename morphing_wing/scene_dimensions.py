@@ -15,7 +15,7 @@ from morphing_wing.scene_keys import SCENES, Keys, one_of
 from morphing_wing.scene_values import Kind
 from morphing_wing.units import KINDS
 
-__all__ = ["as_value", "column_of", "kind_of", "unit_of"]
+__all__ = ["as_value", "column_of", "counts", "kind_of", "unit_of"]
 
 _SUFFIXES = {"length": "mm", "pressure": "MPa", "force": "N", "torque": "Nmm", "angle": "deg",
              "stiffness per area": "N_mm3", "energy per area": "N_mm", "density": "kg_m3"}
@@ -50,6 +50,11 @@ def unit_of(scene: str, key: str) -> str:
     return "" if kind is None else KINDS[kind][0]
 
 
+def counts(scene: str, key: str) -> bool:
+    """Whether a key's value is a whole number."""
+    return int in _parts(scene, key)
+
+
 def column_of(scene: str, key: str) -> str:
     """Return the name that a key has as the column of a table, with its unit.
 
@@ -78,8 +83,7 @@ def as_value(scene: str, key: str, value: Any) -> Any:
     unit, number = unit_of(scene, key), float(value)
     if unit:
         return f"{number!r} {unit}"
-    counts = int in _parts(scene, key)
-    return int(number) if counts and number.is_integer() else number
+    return int(number) if counts(scene, key) and number.is_integer() else number
 
 
 def _parts(scene: str, key: str) -> list[Any]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import pint
@@ -65,7 +65,7 @@ def quantity(text: Any, kind: str) -> float:
     if match is None:
         raise allowed
     try:
-        given = registry().parse_units(match[2])
+        given = parsed(match[2])
         measured = registry().Quantity(float(match[1]), given).to(unit)
     except (pint.PintError, ValueError, TypeError, AttributeError, ArithmeticError):
         raise allowed from None
@@ -75,6 +75,12 @@ def quantity(text: Any, kind: str) -> float:
     if not math.isfinite(measured.magnitude):
         raise ValueError(f"must be a finite {kind}")
     return float(measured.magnitude)
+
+
+@lru_cache(maxsize=1000)
+def parsed(units: str) -> pint.Unit:
+    """Return the units of a text, each text parsed once."""
+    return registry().parse_units(units)
 
 
 @cache

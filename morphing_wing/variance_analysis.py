@@ -27,6 +27,9 @@ __all__ = ["REST", "variance_analysis"]
 REST = "rest"
 """Row of what the factors leave over."""
 
+ROUNDING = 1e-12
+"""Part of all squares below which differences of squares are rounding."""
+
 
 def variance_analysis(
     table: pd.DataFrame, factors: Sequence[str], response: str, interactions: bool = False
@@ -76,13 +79,13 @@ def variance_analysis(
         for a, b in combinations(list(factors), 2):
             cells = table.groupby([a, b], sort=False)[response]
             between = float(np.sum(cells.size() * (cells.mean() - values.mean()) ** 2))
-            squares[f"{a} x {b}"] = between - squares[a] - squares[b]
+            beyond = between - squares[a] - squares[b]
+            squares[f"{a} x {b}"] = beyond if beyond > ROUNDING * total else 0.0
             freedom[f"{a} x {b}"] = freedom[a] * freedom[b]
     rest, free = total - sum(squares.values()), len(values) - 1 - sum(freedom.values())
     found = pd.DataFrame({"source": [*squares, REST], "sum_of_squares": [*squares.values(), rest],
                           "freedom": [*freedom.values(), free]})
-    # Differences of rounding are no rest that anything could be compared with.
-    known = free > 0 and rest > 1e-12 * total
+    known = free > 0 and rest > ROUNDING * total  # or it is nothing to compare with
     error = rest / free if known else np.nan
     found.loc[found.index[-1], "sum_of_squares"] = rest if known else 0.0
     found["mean_square"] = found["sum_of_squares"] / found["freedom"].where(found["freedom"] > 0)

@@ -7,15 +7,15 @@ from morphing_wing.cli import main
 pytestmark = pytest.mark.quick
 
 HEAD = {"scene": '"spar-validation"', "maximize": '"span_angle_deg"', "rungs": '["instant"]'}
-START = '"loads.upper" = "20 kPa"'
-VARIABLES = '"geometry.wall_length" = { from = "2.0 mm", to = "2.4 mm" }'
+BASE = 'loads.upper = "20 kPa"'
+VARIABLES = 'geometry.wall_length = { low = "2.0 mm", high = "2.4 mm" }'
 
 
-def problem(head=None, start=START, variables=VARIABLES, constraints='mass_g = { max = "start" }',
+def problem(head=None, base=BASE, variables=VARIABLES, constraints='mass_g = { max = "base" }',
             **changes):
     head = head if head is not None else "\n".join(
         f"{key} = {value}" for key, value in (HEAD | changes).items() if value is not None)
-    return (f"{head}\n[start]\n{start}\n[variables]\n{variables}\n[constraints]\n{constraints}\n")
+    return (f"{head}\n[base]\n{base}\n[variables]\n{variables}\n[constraints]\n{constraints}\n")
 
 
 # name: (file, what the sentence must say)
@@ -28,7 +28,7 @@ BROKEN = {
     "unknown scene": (
         problem(scene='"kite"'), "scene = 'kite': must be a scene file, NAME.toml, or one of"),
     "scene file that is not there": (problem(scene='"kite.toml"'), "kite.toml: cannot be read"),
-    "scene as a number": (problem(scene="3"), "scene = 3: must be a valid string"),
+    "scene as a number": (problem(scene="3"), "scene = 3: must be a scene file, a built-in"),
     "no goal": (problem(maximize=None), "goal: must be one of maximize, minimize, match"),
     "two goals": (
         problem(minimize='"mass_g"'), "maximize and minimize: must be one of maximize,"),
@@ -55,49 +55,49 @@ BROKEN = {
     "half an evaluation": (problem(evaluations="9.5"), "evaluations = 9.5: must be a valid int"),
     "no tolerance": (problem(tolerance="0.0"), "tolerance = 0: must be greater than"),
     "unknown key at the start": (
-        problem(start='"geometry.wall" = "2 mm"'), "spar-validation: geometry.wall: unknown key"),
+        problem(base='geometry.wall = "2 mm"'), "spar-validation: geometry.wall: unknown key"),
     "start that cannot be built": (
-        problem(start='"geometry.wall_length" = "-2 mm"'), "geometry.wall_length = -2 mm: must be"),
+        problem(base='geometry.wall_length = "-2 mm"'), "geometry.wall_length = -2 mm: must be"),
     "start without a unit in text": (
-        problem(start='"geometry.wall_length" = "2.2"'), "'2.2': must be a length"),
+        problem(base='geometry.wall_length = "2.2"'), "'2.2': must be a length"),
     "start without equilibrium": (
-        problem(start='"loads.upper" = "5 MPa"'), "start: must be a design that can be computed"),
+        problem(base='loads.upper = "5 MPa"'), "base: must be a design that can be computed"),
     "unknown variable": (
-        problem(variables='"geometry.wall" = { from = "2 mm", to = "3 mm" }'),
+        problem(variables='geometry.wall = { low = "2 mm", high = "3 mm" }'),
         "variables: geometry.wall: unknown key, must be one of preset, cavity_length"),
     "variable without bounds": (
-        problem(variables='"geometry.wall_length" = "2 mm"'),
-        "variables.geometry.wall_length = '2 mm': must be written as { from = "),
+        problem(variables='geometry.wall_length = "2 mm"'),
+        "variables.geometry.wall_length = '2 mm': must be written as { low = "),
     "variable with one bound": (
-        problem(variables='"geometry.wall_length" = { from = "2 mm" }'),
-        "variables.geometry.wall_length.to: is missing"),
+        problem(variables='geometry.wall_length = { low = "2 mm" }'),
+        "variables.geometry.wall_length.high: is missing"),
     "variable with a key too many": (
-        problem(variables='"geometry.wall_length" = { from = "2 mm", to = "3 mm", steps = 3 }'),
-        "variables.geometry.wall_length.steps: unknown key, must be one of from, to"),
+        problem(variables='geometry.wall_length = { low = "2 mm", high = "3 mm", steps = 3 }'),
+        "variables.geometry.wall_length.steps: unknown key, must be one of low, high"),
     "bare number for a bound": (
-        problem(variables='"geometry.wall_length" = { from = 2.0, to = "3 mm" }'),
-        "variables.geometry.wall_length.from = 2: must be a length as text with its unit"),
+        problem(variables='geometry.wall_length = { low = 2.0, high = "3 mm" }'),
+        "variables.geometry.wall_length.low = 2: must be a length as text with its unit"),
     "bound in another unit": (
-        problem(variables='"geometry.wall_length" = { from = "2 kPa", to = "3 mm" }'),
-        "variables.geometry.wall_length.from = '2 kPa': must be a length"),
+        problem(variables='geometry.wall_length = { low = "2 kPa", high = "3 mm" }'),
+        "variables.geometry.wall_length.low = '2 kPa': must be a length"),
     "bound that is not finite": (
-        problem(variables='"geometry.wall_length" = { from = "2 mm", to = "inf mm" }'),
+        problem(variables='geometry.wall_length = { low = "2 mm", high = "inf mm" }'),
         "must be a finite length"),
     "bounds the wrong way round": (
-        problem(variables='"geometry.wall_length" = { from = "3 mm", to = "2 mm" }'),
-        "variables.geometry.wall_length: from = 3 mm: must be less than to = 2 mm"),
+        problem(variables='geometry.wall_length = { low = "3 mm", high = "2 mm" }'),
+        "variables.geometry.wall_length: low = 3 mm: must be less than high = 2 mm"),
     "start outside the bounds": (
-        problem(variables='"geometry.wall_length" = { from = "2.5 mm", to = "3 mm" }'),
-        "variables.geometry.wall_length at the start = 2.2 mm: must be between from = 2.5 and"),
+        problem(variables='geometry.wall_length = { low = "2.5 mm", high = "3 mm" }'),
+        "variables.geometry.wall_length of the base = 2.2 mm: must be between low = 2.5 and"),
     "variable that counts": (
-        problem(variables='"geometry.n_cells" = { from = 10, to = 30 }'),
+        problem(variables='geometry.n_cells = { low = 10, high = 30 }'),
         "variables.geometry.n_cells: must be a key whose value is a number that can change"),
     "variable that is a word": (
-        problem(scene='"rib-validation"', maximize='"chord_angle_deg"', start="",
-                variables='"geometry.section" = { from = 1, to = 2 }'),
+        problem(scene='"rib-validation"', maximize='"chord_angle_deg"', base="",
+                variables='geometry.section = { low = 1, high = 2 }'),
         "variables.geometry.section: must be a key whose value is a number"),
     "unknown constraint": (
-        problem(constraints='weight = { max = "start" }'), "output 'weight': must be one of"),
+        problem(constraints='weight = { max = "base" }'), "output 'weight': must be one of"),
     "constraint without a side": (
         problem(constraints="mass_g = {}"), "constraints.mass_g: is empty, must have min, max"),
     "constraint as a number": (
@@ -113,8 +113,8 @@ BROKEN = {
         problem(constraints='largest_stretch = { max = "1.5 mm" }'),
         "constraints.largest_stretch.max = '1.5 mm': must be a plain finite number"),
     "limit that the only rung does not tell": (
-        problem(scene='"rib-validation"', maximize='"chord_angle_deg"', start="",
-                variables='"geometry.pivot_length" = { from = "5 mm", to = "6 mm" }',
+        problem(scene='"rib-validation"', maximize='"chord_angle_deg"', base="",
+                variables='geometry.pivot_length = { low = "5 mm", high = "6 mm" }',
                 constraints='rib_stress_MPa = { max = "35 MPa" }'),
         "output 'rib_stress_MPa': must be left out where fidelity is 'instant'"),
 }

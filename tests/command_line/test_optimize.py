@@ -21,13 +21,13 @@ BIN = os.path.join(os.path.dirname(sys.executable), "morphing-wing")
 RIB = """scene = "rib-validation"
 maximize = "chord_angle_deg"
 rungs = ["instant", "draft"]
-[start]
-"loads.torque" = "10 N mm"
+[base]
+loads.torque = "10 N mm"
 [variables]
-"geometry.shaft_thickness" = { from = "1.1 mm", to = "1.5 mm" }
-"geometry.pivot_length" = { from = "5.0 mm", to = "6.0 mm" }
+geometry.shaft_thickness = { low = "1.1 mm", high = "1.5 mm" }
+geometry.pivot_length = { low = "5.0 mm", high = "6.0 mm" }
 [constraints]
-mass_g = { max = "start" }
+mass_g = { max = "base" }
 """
 
 
@@ -106,7 +106,7 @@ def test_ctrl_c_in_a_terminal_leaves_what_was_found(rib):
 
 
 def test_a_search_that_runs_out_of_designs_is_not_done(rib):
-    angle = '"geometry.crossing_angle" = { from = "80 deg", to = "100 deg" }\n[constraints]'
+    angle = 'geometry.crossing_angle = { low = "80 deg", high = "100 deg" }\n[constraints]'
     (rib / "rib.toml").write_text("evaluations = 5\n" + RIB.replace("[constraints]", angle))
     assert main(["optimize", "rib.toml", "--out", "run"]) == 3
     summary = json.loads((rib / "run" / "summary.json").read_text())

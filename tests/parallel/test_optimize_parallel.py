@@ -12,10 +12,10 @@ pytestmark = pytest.mark.quick
 
 RIB = {
     "scene": "rib-validation", "maximize": "chord_angle_deg", "rungs": ["instant", "draft"],
-    "start": {"loads.torque": "10 N mm"}, "evaluations": 8,
-    "variables": {"geometry.shaft_thickness": {"from": "1.1 mm", "to": "1.5 mm"},
-                  "geometry.pivot_length": {"from": "5.0 mm", "to": "6.0 mm"}},
-    "constraints": {"mass_g": {"max": "start"}},
+    "base": {"loads.torque": "10 N mm"}, "evaluations": 8,
+    "variables": {"geometry.shaft_thickness": {"low": "1.1 mm", "high": "1.5 mm"},
+                  "geometry.pivot_length": {"low": "5.0 mm", "high": "6.0 mm"}},
+    "constraints": {"mass_g": {"max": "base"}},
 }
 
 
@@ -31,8 +31,8 @@ def test_rank_0_writes_and_a_bad_problem_ends_all_ranks(tmp_path, capsys):
     folder = comm.bcast(tmp_path)
     problem = folder / "table2.toml"
     text = ('scene = "spar-validation"\nmaximize = "span_angle_deg"\nrungs = ["instant"]\n'
-            '[start]\n"loads.upper" = "20 kPa"\n[variables]\n'
-            '"geometry.wall_length" = { from = "2 mm", to = "2.4 mm" }\n')
+            '[base]\nloads.upper = "20 kPa"\n[variables]\n'
+            'geometry.wall_length = { low = "2 mm", high = "2.4 mm" }\n')
     if comm.rank == 0:
         problem.write_text(text)
     comm.barrier()

@@ -13,10 +13,10 @@ pytestmark = pytest.mark.quick
 
 PROBLEM = parse_problem({
     "scene": "spar-validation", "maximize": "span_angle_deg",
-    "start": {"loads.upper": "20 kPa"},
-    "variables": {"geometry.cavity_length": {"from": "2 mm", "to": "3 mm"},
-                  "geometry.wall_length": {"from": "2 mm", "to": "2.5 mm"}},
-    "constraints": {"mass_g": {"max": "start"}}})
+    "base": {"loads.upper": "20 kPa"},
+    "variables": {"geometry.cavity_length": {"low": "2 mm", "high": "3 mm"},
+                  "geometry.wall_length": {"low": "2 mm", "high": "2.5 mm"}},
+    "constraints": {"mass_g": {"max": "base"}}})
 
 
 def test_the_best_of_many_hollows_is_found():

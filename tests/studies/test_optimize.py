@@ -20,11 +20,11 @@ pytestmark = pytest.mark.quick
 
 RIB = {
     "scene": "rib-validation", "rungs": ["instant", "draft"], "maximize": "chord_angle_deg",
-    "start": {"loads.torque": "10 N mm", "geometry": {"section": "square",
+    "base": {"loads.torque": "10 N mm", "geometry": {"section": "square",
                                                       "shaft_thickness": "1.4 mm"}},
-    "variables": {"geometry.shaft_thickness": {"from": "1.0 mm", "to": "1.5 mm"},
-                  "geometry.crossing_angle": {"from": "70 deg", "to": "110 deg"}},
-    "constraints": {"rib_stress_MPa": {"max": "17 MPa"}, "length_mm": {"min": "start"}},
+    "variables": {"geometry.shaft_thickness": {"low": "1.0 mm", "high": "1.5 mm"},
+                  "geometry.crossing_angle": {"low": "70 deg", "high": "110 deg"}},
+    "constraints": {"rib_stress_MPa": {"max": "17 MPa"}, "length_mm": {"min": "base"}},
 }
 
 
@@ -172,13 +172,13 @@ def test_designs_that_cannot_be_computed_are_gone_round():
 
 def test_a_start_that_cannot_be_computed_is_refused():
     problem = on("table2", "instant", "standard")
-    with pytest.raises(InputError, match="start: must be a design that can be computed on the "
+    with pytest.raises(InputError, match="base: must be a design that can be computed on the "
                                          "rung 'standard'"):
         driven(problem, lambda values: {name: np.array([np.nan]) for name in problem.outputs})
 
 
 def test_a_target_is_met():
-    table = {key: RIB[key] for key in ("scene", "start", "variables")} | {
+    table = {key: RIB[key] for key in ("scene", "base", "variables")} | {
         "match": "chord_angle_deg", "target": "25 deg", "rungs": ["instant"]}
     found = optimize(parse_problem(table))
     assert found.best()["chord_angle_deg"] == pytest.approx(25.0, abs=2e-3)
