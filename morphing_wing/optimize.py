@@ -25,6 +25,7 @@ from mpi4py import MPI
 
 from .case import ALWAYS, Case, run_case
 from .errors import InputError
+from .interrupts import interrupts_noticed
 from .ladder import LADDERS
 from .optimum_picture import draw
 from .problem import Constraint, Problem
@@ -185,11 +186,13 @@ def optimize(
     search = climb(problem, optimum.found)  # of rank 0
     sent: np.ndarray | None = None
     while True:
-        request = comm.bcast(on_root(comm, lambda s=sent: _advance(search, s)), root=0)
+        with interrupts_noticed():
+            request = comm.bcast(on_root(comm, lambda s=sent: _advance(search, s)), root=0)
         if request is None:
             optimum.found, optimum.complete = comm.bcast(optimum.found, root=0), True
             return optimum
-        row = _computed(problem, request, earlier, comm)
+        with interrupts_noticed():
+            row = _computed(problem, request, earlier, comm)
         if request.role == "start":
             optimum.limits[request.rung] = problem.limits(request.rung, row)
         row["feasible"] = problem.feasible(row, optimum.limits[request.rung])

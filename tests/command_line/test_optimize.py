@@ -1,5 +1,6 @@
 """``morphing-wing optimize``: what it prints, writes and returns; stopped, resumed, refused."""
 
+import contextlib
 import json
 import os
 import signal
@@ -13,6 +14,7 @@ import pytest
 from morphing_wing import optimize as study
 from morphing_wing.built_in import built_in_problems
 from morphing_wing.cli import main
+from morphing_wing.interrupts import interrupts_noticed
 from morphing_wing.problem_file import read_problem
 
 pytestmark = pytest.mark.quick
@@ -103,6 +105,17 @@ def test_ctrl_c_in_a_terminal_leaves_what_was_found(rib):
     assert process.returncode == 130 and error.splitlines()[-1] == "morphing-wing: interrupted"
     assert len(pd.read_csv(rib / "run" / "table.csv")) >= 1
     assert (rib / "run" / "optimum.png").exists()
+
+
+def test_ctrl_c_that_something_swallows_is_raised_after_it():
+    with pytest.raises(KeyboardInterrupt), interrupts_noticed():
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        went_on = True
+    assert went_on
+    with interrupts_noticed():
+        pass
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_search_that_runs_out_of_designs_is_not_done(rib):
