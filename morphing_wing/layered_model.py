@@ -41,7 +41,8 @@ class LayeredModel:
         self._case = problem.start.changed({"fidelity": "instant"}) if (
             "instant" in problem.rungs) else None
         self._layers: list[Predict] = []
-        self.known = np.isfinite(self._formula(self.inside(problem.first)[None])[0])
+        self._told = np.isfinite(self._formula(self.inside(problem.first)[None])[0])
+        self.known = self._told
 
     def inside(self, values: np.ndarray) -> np.ndarray:
         """Return variables' values as points of the unit cube."""
@@ -56,7 +57,7 @@ class LayeredModel:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Return the outputs, shape (n, outputs), at points of shape (n, variables)."""
-        found = np.where(self.known, self._formula(points), 0.0)
+        found = np.where(self._told, self._formula(points), 0.0)
         for layer in self._layers:
             found = found + layer(points)
         return found

@@ -253,7 +253,8 @@ def _by_trust_region(seen: _Seen, below: Found | None) -> Search:
                 slopes = f", by the slopes of {below.rung!r}" if trusted else ""
                 return seen.found(
                     model, f"within {100 * radius:.0f} % of the bounds around it nothing promises "
-                    f"{100 * seen.problem.tolerance:g} % more{slopes}", True)
+                    f"{100 * seen.problem.tolerance:g} % more{slopes}",
+                    bool(np.isfinite(gain)))
             radius = max(0.5 * radius, DONE_AT)
             continue
         if (yield from seen.ask(point, "candidate", float(promise[0, 0]))):

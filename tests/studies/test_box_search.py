@@ -68,6 +68,20 @@ def test_a_layer_has_what_the_finer_rung_told_and_keeps_a_linear_difference():
     np.testing.assert_allclose(twice(others), finer(others) + 0.5, rtol=1e-9)
 
 
+def test_what_the_formula_does_not_know_is_told_by_layers_alone():
+    rib = parse_problem({
+        "scene": "rib-validation", "maximize": "chord_angle_deg", "rungs": ["instant", "draft"],
+        "variables": {"geometry.shaft_thickness": {"low": "1 mm", "high": "1.5 mm"}},
+        "constraints": {"rib_stress_MPa": {"max": "17 MPa"}}})
+    model = LayeredModel(rib)
+    assert list(model.known) == [True, False]
+    points, outputs = np.array([[0.2], [0.5], [0.9]]), np.array([[9.0, 17.0], [8.0, 16.0], [7, 14]])
+    corrected = model.with_layer(points, outputs)
+    assert corrected.known.all()
+    np.testing.assert_allclose(corrected(points), outputs, rtol=1e-9)
+    assert np.isfinite(corrected(np.array([[0.7]]))).all()
+
+
 def test_values_of_points_have_six_digits_and_stay_between_the_bounds():
     model = LayeredModel(PROBLEM)
     values = model.values(np.array([1.0 / 3.0, 1.0]))
