@@ -107,8 +107,9 @@ class Case:
             If a change is of no key, or of the scene's kind.
         """
         table = copy.deepcopy(dict(self.table))
+        base = Case(self.table, name=self.name)
         if any(key.split(".")[-1].isdecimal() for key in self.changes):
-            check_scene(table, self.name)  # entries of lists take their place in what is there
+            base.file  # noqa: B018  refuses; entries of lists take their place in what is there
         with located(self.name):
             scene = table.get("scene")
             if not (isinstance(scene, str) and scene in SCENES):
@@ -116,7 +117,7 @@ class Case:
             for key, value in self.changes.items():
                 if key == "scene":
                     raise InputError(f"scene: cannot be changed, must remain {scene!r}")
-                self._put(table, scene, key, as_value(scene, key, value))
+                _put(base, table, key, as_value(scene, key, value))
         return table
 
     @property
@@ -151,25 +152,6 @@ class Case:
                                  f"{len(owner) - 1}")
             owner = owner[int(part)] if part.isdecimal() else getattr(owner, part, None)
         return owner
-
-    def _put(self, table: dict[str, Any], scene: str, key: str, value: Any) -> None:
-        *way, last = key.split(".")
-        place = None
-        if last.isdecimal():
-            base = Case(self.table, name=self.name)
-            base.value(key)  # refuses a place that the list has not
-            whole = ".".join(way)
-            place, (*way, last) = int(last), way
-        for part in way:
-            table = table.setdefault(part, {})
-            if not isinstance(table, dict):
-                raise InputError(f"{key}: must be left out where {part} is {table!r}")
-        if place is not None:
-            entries = table.get(last)
-            if not isinstance(entries, list):
-                entries = as_value(scene, whole, list(base.value(whole)))
-            value = [*entries[:place], value, *entries[place + 1 :]]
-        table[last] = value
 
 
 def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[str, Any]:
@@ -212,6 +194,26 @@ def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[
     ours = (w for w in said if issubclass(w.category, UserWarning))
     found["warned"] = "; ".join(dict.fromkeys(one_line(w.message) for w in ours))
     return found | {"seconds": time.perf_counter() - begin}
+
+
+def _put(base: Case, table: dict[str, Any], key: str, value: Any) -> None:
+    """Put a value into a scene file's table; an entry of a list into what ``base`` has there."""
+    *way, last = key.split(".")
+    place = None
+    if last.isdecimal():
+        base.value(key)  # refuses a place that the list has not
+        whole = ".".join(way)
+        place, (*way, last) = int(last), way
+    for part in way:
+        table = table.setdefault(part, {})
+        if not isinstance(table, dict):
+            raise InputError(f"{key}: must be left out where {part} is {table!r}")
+    if place is not None:
+        entries = table.get(last)
+        if not isinstance(entries, list):
+            entries = as_value(base.scene, whole, list(base.value(whole)))
+        value = [*entries[:place], value, *entries[place + 1 :]]
+    table[last] = value
 
 
 def _solved(case: Case, outputs: Sequence[str], comm: Any) -> dict[str, Any]:

@@ -37,8 +37,9 @@ def in_processes(
 ) -> Iterator[tuple[int, dict[str, Any]]]:
     """Compute tasks in so many processes on this machine.
 
-    A case whose process is gone is tried once more alone; if that is gone too, the case is said to
-    be ``stopped`` so. Leaving the iteration before its end ends the processes.
+    Where a process is gone, the cases that were given out are tried once more, one by one; one
+    whose process is gone again is said to be ``stopped`` so. Leaving the iteration before its end
+    ends the processes.
 
     Parameters
     ----------
@@ -51,23 +52,22 @@ def in_processes(
     """
     waiting = deque(tasks)
     while waiting:
-        suspects = yield from _until_broken(compute, waiting, workers)
-        for task in suspects:
-            alone = deque([task])
-            if (yield from _until_broken(compute, alone, 1)):
-                yield task[0], {"stopped": GONE}
+        suspects = deque((yield from _until_broken(compute, waiting, workers, _AHEAD * workers)))
+        while suspects:  # one by one, so that it is known which one is at work
+            for number, _ in (yield from _until_broken(compute, suspects, 1, 1)):
+                yield number, {"stopped": GONE}
 
 
 def _until_broken(
-    compute: Compute, waiting: deque[Task], workers: int
+    compute: Compute, waiting: deque[Task], workers: int, most: int
 ) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Yield results; return the tasks that were at work when a process was gone, if one was."""
+    """Yield results; return the tasks, at most ``most``, that were out when a process was gone."""
     pool, running = worker_pool(workers), {}
     at_once = True
     try:
         while waiting or running:
             with world_of_their_own():
-                while waiting and len(running) < _AHEAD * workers:
+                while waiting and len(running) < most:
                     running[pool.submit(compute, waiting[0][1])] = waiting[0]
                     waiting.popleft()
             done, _ = concurrent.futures.wait(

@@ -14,6 +14,9 @@ from morphing_wing.errors import InputError
 
 __all__ = ["array_names", "orthogonal_array"]
 
+_NOT_ORTHOGONAL = ("L64(2^31)",)
+"""Arrays of pyDOE3 1.6 with wrong entries: two of its columns have 31 ones in 64 rows."""
+
 
 def array_names() -> list[str]:
     """Return the arrays' names, shortest array first: L4, L8, L9, ..., L16(2^15), L16(4^5), ...
@@ -22,7 +25,7 @@ def array_names() -> list[str]:
     """
     from pyDOE3 import list_orthogonal_arrays
 
-    full = [_unabridged(name) for name in list_orthogonal_arrays()]
+    full = [_unabridged(name) for name in list_orthogonal_arrays() if name not in _NOT_ORTHOGONAL]
     short = [name.split("(")[0] for name in full]
     return [s if short.count(s) == 1 else f for s, f in zip(short, full, strict=True)]
 
@@ -55,7 +58,8 @@ def orthogonal_array(levels: Sequence[int], name: str | None = None) -> np.ndarr
     """
     from pyDOE3 import get_orthogonal_array, list_orthogonal_arrays
 
-    known = {_unabridged(full): full for full in list_orthogonal_arrays()}
+    known = {_unabridged(full): full for full in list_orthogonal_arrays()
+             if full not in _NOT_ORTHOGONAL}
     asked = [n for n in known if name in (None, n, n.split("(")[0])]
     if not asked:
         raise InputError(f"array = {name!r}: must be one of {', '.join(array_names())}")

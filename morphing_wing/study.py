@@ -85,6 +85,9 @@ class Study:
         if isinstance(self.case, Case):
             with located(self.case.name):
                 for factor in self.factors:
+                    if factor.key == "scene":
+                        raise InputError(f"factor 'scene': must be another key, it is "
+                                         f"{self.case.scene!r} in all cases")
                     kind_of(self.case.scene, factor.key)
                 check_outputs(self.case.file, self.outputs)
 
@@ -139,7 +142,8 @@ class Study:
             done: dict[int, dict[str, Any]] = {}
             self._compute_all(rows, done, lambda number, result: None, workers, told, pool)
             return self._result(rows, done, time.perf_counter() - begin)
-        with CaseRecord(pathlib.Path(folder), self.description(), len(rows), resume) as record:
+        what = {key: value for key, value in self.description().items() if key != "name"}
+        with CaseRecord(pathlib.Path(folder), what, len(rows), resume) as record:
             record.check_inputs(rows)
             self._compute_all(
                 rows, record.done, lambda number, result: record.add(number, rows[number], result),

@@ -147,8 +147,12 @@ def computed(
     size = len(checked.inputs())
     typer.echo(f"{checked.name}: {size} cases, {len(checked.factors)} factors, "
                f"{checked.design.kind.replace('_', ' ')}, {workers} worker(s)")
-    with StudyProgress(console(), size, checked.outputs, bar=pool is None) as progress:
-        return checked.run(workers, folder, resume, told=progress, pool=pool)
+    try:
+        with StudyProgress(console(), size, checked.outputs, bar=pool is None) as progress:
+            return checked.run(workers, folder, resume, told=progress, pool=pool)
+    except KeyboardInterrupt:
+        typer.echo(f"what was computed is in {folder}, --resume goes on with it")
+        raise
 
 
 def ended(result: StudyResult, folder: pathlib.Path) -> int:

@@ -29,6 +29,7 @@ _UNIT = re.compile(f"(.+?)_({'|'.join(sorted(_UNITS, key=len, reverse=True))})")
 _SYMBOLS = {"span_angle_deg": r"$\varphi_1$, deg", "chord_angle_deg": r"$\varphi_2$, deg"}
 _GREY = "#8a8a84"
 _MOST_TICKS = 6
+_FEW = 500  # points that a small panel can hold apart
 
 
 def draw(result: StudyResult, folder: pathlib.Path) -> list[pathlib.Path]:
@@ -62,7 +63,9 @@ def main_effects(result: StudyResult, folder: pathlib.Path) -> pathlib.Path | No
     def panel(axes: Axes, output: str, factor: Any) -> None:
         levels = result.analysis_of("levels", output)
         means = levels.loc[levels["factor"] == factor.column, "mean"].to_numpy()
-        names = list(dict.fromkeys(result.table[factor.column]))
+        names = list(dict.fromkeys(result.table[factor.column]))  # in the order of the means
+        order = np.argsort(names) if factor.is_range else np.arange(len(names))
+        means, names = means[order], [names[i] for i in order]
         axes.axhline(result.table[output].mean(), color=_GREY, linewidth=1.0, linestyle=":")
         axes.plot(np.arange(len(means)), means, "o-", color=COLOURS[0])
         axes.set_xticks(range(len(names)), [_short(name) for name in names])
@@ -83,7 +86,8 @@ def scatter(result: StudyResult, folder: pathlib.Path) -> pathlib.Path | None:
         if not factor.is_range:
             names = list(factor.levels)
             x = x.map(names.index)
-        axes.plot(x, good[output], "o", color=COLOURS[0], markersize=3.5, alpha=0.6,
+        size, alpha = (3.5, 0.6) if len(good) <= _FEW else (1.8, 0.3)
+        axes.plot(x, good[output], "o", color=COLOURS[0], markersize=size, alpha=alpha,
                   markeredgewidth=0)
         if names is not None:
             axes.set_xticks(range(len(names)), [_short(name) for name in names])

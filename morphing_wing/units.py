@@ -66,7 +66,7 @@ def quantity(text: Any, kind: str) -> float:
         raise allowed
     try:
         given = parsed(match[2])
-        measured = registry().Quantity(float(match[1]), given).to(unit)
+        measured = registry().Quantity(float(match[1]), given).to(parsed(unit))
     except (pint.PintError, ValueError, TypeError, AttributeError, ArithmeticError):
         raise allowed from None
     # Degrees have no dimension, so that pint takes "70 percent" and "3 mm/m" for angles too.
