@@ -30,7 +30,8 @@ from .ladder import LADDERS
 from .optimum_picture import draw
 from .problem import Constraint, Problem
 from .root import on_root, write_whole
-from .rung_search import Found, Request, climb
+from .rung_search import climb
+from .seen_designs import Found, Request
 from .study_files import write_study
 from .summary import plain
 

@@ -65,7 +65,7 @@ def prices(
         if now[i] > -AT_LIMIT:
             names.append(f"{c.output} {c.side}")
             columns.append(slopes[:, i])
-            units.append(max(abs(limit), 1e-12))
+            units.append(abs(limit) or 1.0)
     for i, v in enumerate(problem.variables):
         for side, reached, sign in (("min", point[i] < AT_LIMIT, -1.0),
                                     ("max", point[i] > 1.0 - AT_LIMIT, 1.0)):

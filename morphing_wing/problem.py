@@ -76,8 +76,8 @@ class Constraint:
         return f"{self.output} {'<=' if self.side == 'max' else '>='} {limit}"
 
     def violation(self, value: np.ndarray, limit: float) -> np.ndarray:
-        """Return by how much of the limit it is passed: positive where it is."""
-        over = (value - limit) / max(abs(limit), 1e-12)
+        """Return by which part of the limit (of 1 where that is 0) it is passed, if positive."""
+        over = (value - limit) / (abs(limit) or 1.0)
         return over if self.side == "max" else -over
 
 
@@ -138,6 +138,11 @@ class Problem:
     def outputs(self) -> tuple[str, ...]:
         """All outputs that goal and constraints are about, the goal's first."""
         return tuple(dict.fromkeys([self.goal.output, *(c.output for c in self.constraints)]))
+
+    @property
+    def least_gain(self) -> float:
+        """Least gain of the cost that is worth an evaluation: that of a match is squared."""
+        return self.tolerance**2 if self.goal.kind == "match" else self.tolerance
 
     @property
     def lowest(self) -> np.ndarray:

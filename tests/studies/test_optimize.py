@@ -13,6 +13,8 @@ from morphing_wing.case import Case, run_case
 from morphing_wing.errors import InputError
 from morphing_wing.formula_outputs import formula_outputs
 from morphing_wing.optimize import described, optimize
+from morphing_wing.optimum_report import report
+from morphing_wing.problem import Goal
 from morphing_wing.problem_file import parse_problem, read_problem
 from morphing_wing.rung_search import climb
 
@@ -183,6 +185,37 @@ def test_a_target_is_met():
     found = optimize(parse_problem(table))
     assert found.best()["chord_angle_deg"] == pytest.approx(25.0, abs=2e-3)
     assert found.converged and found.found[0].prices == {}
+
+
+def test_a_target_is_met_on_a_finer_rung_that_disagrees():
+    problem = dataclasses.replace(
+        on("table2", "instant", "standard"), goal=Goal("match", "span_angle_deg", 17.0))
+    finer = disagreeing(problem)
+    found, rows = driven(problem, finer)
+    values = {v.key: np.array([x]) for v, x in zip(
+        problem.variables, found[-1].values, strict=True)}
+    assert finer(values)["span_angle_deg"][0] == pytest.approx(17.0, rel=2e-3)
+    assert sum(request.rung == "standard" for request, _ in rows) < 20
+
+
+def test_a_start_that_passes_a_limit_is_led_back():
+    problem = on("table2", "instant")
+    lighter = dataclasses.replace(problem.constraints[0], limit=49.0)
+    found = optimize(dataclasses.replace(problem, constraints=(lighter,)))
+    assert not found.rows[0]["feasible"] and found.converged
+    assert 48.99 < found.best()["mass_g"] <= 49.0
+
+
+def test_limits_that_nothing_holds_end_without_a_design_and_say_so(tmp_path):
+    problem = on("table2", "instant")
+    impossible = dataclasses.replace(problem.constraints[0], limit=10.0)
+    found = optimize(dataclasses.replace(problem, constraints=(impossible,)))
+    assert found.best() is None and found.design() is None and not found.converged
+    assert found.reason() == "no design that holds all constraints was found"
+    found.save(tmp_path)
+    assert sorted(file.name for file in tmp_path.iterdir()) == [
+        "optimum.png", "summary.json", "table.csv"]
+    assert report(found)[-1] == found.reason()
 
 
 @pytest.fixture(scope="module")
