@@ -25,7 +25,7 @@ from morphing_wing.seen_designs import Found, Request, SeenDesigns
 __all__ = ["climb"]
 
 BEGIN, BEGIN_CORRECTED, DONE_AT, LARGEST, CLOSED = 0.25, 0.1, 0.1, 0.5, 0.01
-"""Half widths of the box, of the variables' bounds: the first, with and without a corrected model;
+"""Half widths of the box, of the variables' bounds: the first, without and with a corrected model;
 where nothing gained is the end; the largest; and where the search is given up."""
 
 TRUE = 0.7

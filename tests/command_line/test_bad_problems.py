@@ -134,10 +134,10 @@ def test_a_broken_problem_is_refused_in_one_sentence(name, tmp_path, capsys, mon
 
 
 @pytest.mark.parametrize("arguments, sentence", [
-    (["spars"], "problem = 'spars': must be a problem file, NAME.toml, or one of spar, table2"),
+    (["spars"], "problem = 'spars': must be a problem file, NAME.toml, or one of rib, spar,"),
     (["none.toml"], "none.toml: cannot be read, no such file or directory"),
     (["spar", "--out", "/proc/version"], "--out /proc/version: must be a folder"),
-    (["mine", "--print"], "problem 'mine': must be one of spar, table2"),
+    (["mine", "--print"], "problem 'mine': must be one of rib, spar, table2"),
     (["spar", "table2"], "unexpected extra argument"),
 ])
 def test_bad_arguments_are_refused_in_one_sentence(arguments, sentence, capsys, tmp_path,

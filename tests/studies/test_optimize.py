@@ -87,6 +87,20 @@ def test_at_its_mass_the_papers_choice_is_the_formulas_optimum():
     assert design == pytest.approx((2.4, 2.4, 1.0), abs=5e-4)
 
 
+def test_a_wing_can_be_a_problem_too():
+    problem = parse_problem({
+        "scene": "wing-no-skin", "match": "chord_angle_deg", "target": "20 deg",
+        "rungs": ["draft", "standard"], "base": {"loads.cable": "0.1 N"},
+        "variables": {"geometry.rib.shaft_thickness": {"low": "0.8 mm", "high": "1.2 mm"},
+                      "elastomer.coefficients.0": {"low": "0.1 MPa", "high": "0.2 MPa"},
+                      "loads.cable": {"low": "0 N", "high": "0.2 N"}},
+        "constraints": {"mass_g": {"max": "base"}, "rib_2_rotation_deg": {"max": "40 deg"}}})
+    assert [v.column for v in problem.variables] == [
+        "rib_shaft_thickness_mm", "elastomer_coefficients_0_MPa", "cable_N"]
+    assert list(problem.first) == [1.0, 0.117, 0.1]
+    assert problem.case(problem.first, "draft").file.loads["cable"] == (0.1,)
+
+
 def test_a_price_is_what_a_moved_limit_gains():
     problem = on("spar", "instant")
     found = optimize(problem)
