@@ -135,7 +135,7 @@ class Optimum:
             "limits": [{"rung": rung, "output": c.output, "side": c.side, "limit": limit}
                        for rung, limits in self.limits.items() for c, limit in limits.items()],
             "problem": described(problem),
-            **{name: list(table[name]) for name in table},
+            **{name: list(table[name]) for name in table if name not in ("dofs", "seconds")},
         }
 
     def save(self, directory: str | os.PathLike, picture: bool = True) -> None:

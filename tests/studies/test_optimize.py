@@ -261,6 +261,8 @@ def test_what_is_saved_is_read_again_and_solved(rib, tmp_path):
     assert len(table) == len(rib.rows) and set(table["rung"]) == {"instant", "draft"}
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["converged"] and summary["best"]["feasible"]
+    assert summary["seconds"] == pytest.approx(table["seconds"].sum())
+    assert summary["dofs"] == table["dofs"].max()
     assert summary["chord_angle_deg"] == list(rib.table()["chord_angle_deg"])
     assert {row["output"] for row in summary["limits"]} == {"rib_stress_MPa", "length_mm"}
     assert summary["problem"] == described(rib.problem)
