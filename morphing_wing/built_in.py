@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from importlib import resources
 
-__all__ = ["built_in_scenes", "built_in_studies"]
+__all__ = ["built_in_problems", "built_in_scenes", "built_in_studies"]
 
 
 def built_in_scenes() -> dict[str, str]:
     """Return the TOML text of the built-in scenes by name."""
     return texts("scenes")
+
+
+def built_in_problems() -> dict[str, str]:
+    """Return the TOML text of the built-in problems of optimisation by name."""
+    return texts("problems")
 
 
 def built_in_studies() -> dict[str, str]:

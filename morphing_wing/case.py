@@ -95,6 +95,17 @@ class Case:
         InputError
             ``spar-n4: geometry.top_thickness = -1 mm: must be ...``, as of a scene file.
         """
+        return check_scene(self.changed_table, self.name)
+
+    @cached_property
+    def changed_table(self) -> dict[str, Any]:
+        """What a scene file with the changes in it holds; `file` checks it.
+
+        Raises
+        ------
+        InputError
+            If a change is of no key, or of the scene's kind.
+        """
         table = copy.deepcopy(dict(self.table))
         base = Case(self.table, name=self.name)
         if any(key.split(".")[-1].isdecimal() for key in self.changes):
@@ -107,7 +118,7 @@ class Case:
                 if key == "scene":
                     raise InputError(f"scene: cannot be changed, must remain {scene!r}")
                 _put(base, table, key, as_value(scene, key, value))
-        return check_scene(table, self.name)
+        return table
 
     @property
     def scene(self) -> str:

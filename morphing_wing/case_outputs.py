@@ -48,6 +48,10 @@ OF_CHORD = {
     "chord_angle_deg": "phi_2, rotation of the trailing edge or of the rib's tail",
     "chord_line_deg": "deflection line along the chord",
 }
+OF_BOX = {
+    "length_mm": "length from the root to the tip, or to the tail",
+    "height_mm": "height over all, or between a rib's joints",
+}
 OF_CONTACT = {
     "gap_mm": "smallest gap in the pocket",
     "touching": "1 where something presses on something",
@@ -58,9 +62,10 @@ OF_CONTACT = {
     "glue_dissipated_Nmm": "energy that the glue dissipated",
 }
 OUTPUTS: dict[str, dict[str, str]] = {
-    "spar": OF_SPAN | OF_PRESSURE | OF_RUBBER | OF_ALL,
-    "rib": OF_CHORD | {"torque_Nmm": "end moment", "cable_N": "cable's tension"} | OF_RESIN
+    "spar": OF_SPAN | OF_PRESSURE | OF_RUBBER | OF_BOX | {"width_mm": "chordwise width over all"}
     | OF_ALL,
+    "rib": OF_CHORD | {"torque_Nmm": "end moment", "cable_N": "cable's tension"} | OF_RESIN
+    | OF_BOX | {"depth_mm": "depth of all layers along the span"} | OF_ALL,
     "wing": OF_SPAN | OF_CHORD | OF_PRESSURE
     | {"spar_twist_deg": "rotation of the spar's rear wall about z",
        "trailing_edge_deg": "rotation of the trailing edge in space",
@@ -69,6 +74,7 @@ OUTPUTS: dict[str, dict[str, str]] = {
 }
 """Of each scene, what can be asked, and what that is."""
 
+_BOX = ("length", "height", "width", "depth")
 _BY_LIMITS = {*OF_RUBBER, *OF_RESIN}
 _BY_FORMULA = {"largest_stretch", "material_stability"}
 
@@ -129,6 +135,9 @@ def found_outputs(file: SceneFile, scene: Any, path: Any, outputs: Sequence[str]
     last["dofs"] = int(scene.dofs)
     if "mass_g" in outputs:
         last["mass_g"] = mass(file)
+    if file.scene != "wing":
+        last |= {name: getattr(file.geometry, name[:-3])
+                 for name in outputs if name in OUTPUTS[file.scene] and name[:-3] in _BOX}
     for name in outputs:
         if name not in last:
             raise InputError(f"output {name!r}: is not measured of this {file.scene}, fidelity "

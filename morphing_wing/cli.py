@@ -21,6 +21,7 @@ from mpi4py import MPI
 from morphing_wing.built_in import built_in_scenes
 from morphing_wing.calibrate_command import calibrate
 from morphing_wing.errors import InputError, one_line, require
+from morphing_wing.optimize_command import optimize
 from morphing_wing.out_folder import check_folder
 from morphing_wing.paper_command import paper
 from morphing_wing.study_command import studies, study, under_mpi_futures
@@ -158,6 +159,7 @@ app.command()(verify)
 app.command()(tradeoff)
 app.command()(study)
 app.command()(studies)
+app.command()(optimize)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -13,6 +13,7 @@ from mpi4py import MPI
 
 from .analytic_rib import rib_compliance
 from .analytic_spar import SparFormula
+from .arc_line import arc_line
 from .errors import InputError, plain
 from .fieldless import Fieldless
 from .geometry.rib import RibGeometry
@@ -119,8 +120,9 @@ class InstantSpar(Formula, Spar):
             return (f"the formula goes to {1000 * self._formula.largest_pressure:.4g} kPa at most, "
                     f"{1000 * pressure:.4g} kPa were asked for")
         angle = (-1.0 if load["lower_MPa"] else 1.0) * self.geometry.n_cells * turn
-        return ({"span_angle_deg": float(np.degrees(angle)), "span_line_deg": arc_line(angle)},
-                self._formula.energy(turn))
+        measures = {"span_angle_deg": np.degrees(angle), "span_line_deg": arc_line(angle)}
+        return ({name: float(value) for name, value in measures.items()},
+                float(self._formula.energy(turn)))
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
@@ -162,16 +164,11 @@ class InstantRib(Formula, Rib):
 
     def _solved(self, load: Mapping[str, float]) -> tuple[dict[str, float], float]:
         angle = np.radians(self._compliance * load["torque_Nmm"])
-        return ({"chord_angle_deg": float(np.degrees(angle)), "chord_line_deg": arc_line(angle)},
+        measures = {"chord_angle_deg": np.degrees(angle), "chord_line_deg": arc_line(angle)}
+        return ({name: float(value) for name, value in measures.items()},
                 0.5 * load["torque_Nmm"] * float(angle))
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
         return {"geometry": asdict(self.geometry), "material": asdict(self.material),
                 "equations": "13-18, Eqs 14 and 17.2 with their dimensions mended"}
-
-
-def arc_line(angle: float) -> float:
-    """Return the deflection line in degrees of an arc that ends turned by an angle in radians."""
-    sunk = 0.5 * angle if abs(angle) < 1e-6 else (1.0 - np.cos(angle)) / angle
-    return float(np.degrees(np.arctan(sunk)))

@@ -24,6 +24,8 @@ KINDS = {
     "stiffness per area": ("N/mm^3", "50 N/mm^3"),
     "energy per area": ("N/mm", "0.5 N/mm"),
     "density": ("kg/m^3", "1080 kg/m^3"),
+    "energy": ("N mm", "20 N mm"),
+    "mass": ("g", "50 g"),
 }
 """What can be measured: the unit that the package computes in, and an example of a text."""
 

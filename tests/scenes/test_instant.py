@@ -50,7 +50,8 @@ def test_energy_is_the_work_of_the_pressure():
     pressures = np.linspace(0.0, 0.03, 301)
     path = instant().inflate(upper=pressures)
     turns = np.radians(path.table()["span_angle_deg"])
-    work = path.scene._formula._swept * trapezoid(pressures, turns)
+    lever = VALIDATION.top_thickness + VALIDATION.cavity_height + VALIDATION.middle_thickness / 2
+    work = 1.5 * lever**2 * VALIDATION.width * trapezoid(pressures, turns)  # Eq 10
     assert path[-1].energy_Nmm == pytest.approx(work, rel=1e-4)
 
 
