@@ -16,7 +16,8 @@ _PLACES = {
     "Spar": "spar", "Rib": "rib", "Wing": "wing", "Path": "path", "State": "path",
     "Trim": "trim", "load_table": "path", "Progress": "progress", "plot_paths": "curves",
     "Adhesive": "materials", "Yeoh": "materials", "Elastic": "materials",
-    "Case": "case", "run_case": "case", "Study": "study", "Factor": "factors", "Design": "designs",
+    "Case": "studies.case", "run_case": "studies.case", "Study": "studies.study",
+    "Factor": "studies.factors", "Design": "studies.designs",
     "DRAGON_SKIN_30": "materials", "RESIN": "materials", "InputError": "errors",
 }  # fmt: skip
 __all__ = list(_PLACES)

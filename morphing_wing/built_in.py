@@ -14,7 +14,7 @@ def built_in_scenes() -> dict[str, str]:
 
 def built_in_problems() -> dict[str, str]:
     """Return the TOML text of the built-in problems of optimisation by name."""
-    return texts("problems")
+    return texts("optimization/problems")
 
 
 def built_in_studies() -> dict[str, str]:

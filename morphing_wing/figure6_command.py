@@ -14,7 +14,7 @@ from morphing_wing.tables_command import ended
 
 if TYPE_CHECKING:
     from morphing_wing.figure5_curves import Curve
-    from morphing_wing.figure6_result import Figure6
+    from morphing_wing.figure6.result import Figure6
 
 __all__ = ["run_figure6"]
 
@@ -27,9 +27,9 @@ def run_figure6(
     """Compute, print and save Figure 6; what is done is written after each case and series."""
     require(reading in READINGS, "--reading", reading, "", "flush, square or both")
 
-    from morphing_wing.figure6 import figure6
-    from morphing_wing.figure6_cases import read_cases, write_cases
-    from morphing_wing.figure6_report import report
+    from morphing_wing.figure6.cases import read_cases, write_cases
+    from morphing_wing.figure6.report import report
+    from morphing_wing.figure6.study import figure6
     from morphing_wing.terminal_tables import console
 
     comm = MPI.COMM_WORLD
@@ -55,7 +55,7 @@ def run_figure6(
 
 def words(study: Figure6, curve: Curve, row: Mapping[str, Any]) -> str:
     """Return a case in words: a rib's as under 1 N mm, before the moment is fitted."""
-    from morphing_wing.figure6_points import PANELS
+    from morphing_wing.figure6.points import PANELS
 
     panel, rows = PANELS[curve.scene], study.solved[curve]
     cases = len(panel.points[list(panel.levels)].drop_duplicates())

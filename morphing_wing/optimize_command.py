@@ -16,7 +16,7 @@ from morphing_wing.root import on_root
 from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
-    from morphing_wing.problem import Problem
+    from morphing_wing.optimization.problem import Problem
 
 __all__ = ["optimize"]
 
@@ -54,7 +54,7 @@ def optimize(
         return listed()
     if show:
         return printed(problem)
-    from morphing_wing.problem_file import read_problem
+    from morphing_wing.optimization.problem_file import read_problem
 
     comm = MPI.COMM_WORLD
     folder = out or pathlib.Path("output") / pathlib.Path(problem).stem
@@ -71,8 +71,8 @@ def searched(
     problem: Problem, known: list[dict[str, Any]], folder: pathlib.Path, comm: MPI.Comm
 ) -> int:
     """Search, print and save; what is done is written after each design."""
-    from morphing_wing import optimize as study
-    from morphing_wing.optimum_report import in_a_line, report
+    from morphing_wing.optimization import optimum as study
+    from morphing_wing.optimization.report import in_a_line, report
     from morphing_wing.terminal_tables import console
 
     numbers: dict[str, int] = {}
@@ -115,7 +115,7 @@ def earlier(folder: pathlib.Path, problem: Problem) -> list[dict[str, Any]]:
     """
     import pandas as pd
 
-    from morphing_wing.optimize import described
+    from morphing_wing.optimization.optimum import described
 
     try:
         was = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["problem"]

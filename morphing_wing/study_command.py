@@ -17,8 +17,8 @@ from morphing_wing.root import on_root
 from morphing_wing.together import DONE, STOPPED
 
 if TYPE_CHECKING:
-    from morphing_wing.study import Study
-    from morphing_wing.study_result import StudyResult
+    from morphing_wing.studies.result import StudyResult
+    from morphing_wing.studies.study import Study
 
 __all__ = ["studies", "study", "under_mpi_futures"]
 
@@ -64,7 +64,7 @@ def study(
 
     mpirun -n 5 python -m mpi4py.futures -m morphing_wing study mine.toml
     """
-    from morphing_wing.study_file import read_study
+    from morphing_wing.studies.study_file import read_study
 
     alone = under_mpi_futures()
     comm = MPI.COMM_SELF if alone else MPI.COMM_WORLD
@@ -128,7 +128,7 @@ def by_ranks(comm: Any, checked: Study | None, folder: pathlib.Path, resume: boo
     """Compute on all other ranks what rank 0 deals out."""
     from mpi4py.futures import MPICommExecutor
 
-    from morphing_wing.case_pool import petsc_alone
+    from morphing_wing.studies.case_pool import petsc_alone
 
     petsc_alone()
     status, problem = DONE, None
@@ -150,7 +150,7 @@ def computed(
     checked: Study, folder: pathlib.Path, resume: bool, workers: int, pool: Any
 ) -> StudyResult:
     """Compute a study, save and print what it found."""
-    from morphing_wing.study_progress import StudyProgress
+    from morphing_wing.studies.progress import StudyProgress
     from morphing_wing.terminal_tables import console
 
     size = len(checked.inputs())
@@ -166,7 +166,7 @@ def computed(
 
 def ended(result: StudyResult, folder: pathlib.Path) -> int:
     """Save and print what was found, and return the exit status."""
-    from morphing_wing.study_report import report
+    from morphing_wing.studies.report import report
     from morphing_wing.terminal_tables import console
 
     result.save(folder)

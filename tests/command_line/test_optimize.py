@@ -11,11 +11,11 @@ import time
 import pandas as pd
 import pytest
 
-from morphing_wing import optimize as study
 from morphing_wing.built_in import built_in_problems
 from morphing_wing.cli import main
 from morphing_wing.interrupts import interrupts_noticed
-from morphing_wing.problem_file import read_problem
+from morphing_wing.optimization import optimum as study
+from morphing_wing.optimization.problem_file import read_problem
 
 pytestmark = pytest.mark.quick
 

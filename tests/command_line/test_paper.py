@@ -8,11 +8,11 @@ import pandas as pd
 import pytest
 from mpi4py import MPI
 
-from morphing_wing import figure6 as figure6_module
 from morphing_wing import figure7 as module
 from morphing_wing import figure7_result
 from morphing_wing import reach as map_module
 from morphing_wing.cli import main
+from morphing_wing.figure6 import study as figure6_module
 from morphing_wing.figure7_result import Curve, Figure7
 from morphing_wing.ladder import LADDERS
 from morphing_wing.path import Path, State

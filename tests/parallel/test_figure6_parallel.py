@@ -8,9 +8,9 @@ from morphing_wing.bulge import Bulge
 from morphing_wing.cli import main
 from morphing_wing.errors import InputError
 from morphing_wing.figure5_curves import Curve
-from morphing_wing.figure6_cases import read_cases, write_cases
-from morphing_wing.figure6_points import PANELS
-from morphing_wing.figure6_result import Figure6
+from morphing_wing.figure6.cases import read_cases, write_cases
+from morphing_wing.figure6.points import PANELS
+from morphing_wing.figure6.result import Figure6
 from morphing_wing.geometry.spar import SparGeometry
 from morphing_wing.rib import Rib
 from morphing_wing.solved_case import solved_case

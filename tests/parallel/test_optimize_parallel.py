@@ -5,8 +5,8 @@ import pytest
 from mpi4py import MPI
 
 from morphing_wing.cli import main
-from morphing_wing.optimize import optimize
-from morphing_wing.problem_file import parse_problem
+from morphing_wing.optimization.optimum import optimize
+from morphing_wing.optimization.problem_file import parse_problem
 
 pytestmark = pytest.mark.quick
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from morphing_wing.box_search import best_in_box
-from morphing_wing.layered_model import LayeredModel, unknown_direction
-from morphing_wing.prices import prices
-from morphing_wing.problem import Constraint
-from morphing_wing.problem_file import parse_problem
+from morphing_wing.optimization.box_search import best_in_box
+from morphing_wing.optimization.layered_model import LayeredModel, unknown_direction
+from morphing_wing.optimization.prices import prices
+from morphing_wing.optimization.problem import Constraint
+from morphing_wing.optimization.problem_file import parse_problem
 
 pytestmark = pytest.mark.quick
 

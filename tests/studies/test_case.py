@@ -9,13 +9,13 @@ import sys
 import numpy as np
 import pytest
 
-from morphing_wing.case import Case, run_case
 from morphing_wing.errors import InputError
 from morphing_wing.geometry import RibGeometry, SparGeometry, WingGeometry, WingMeshing
 from morphing_wing.geometry.wing_mesh import wing_mesh
 from morphing_wing.mass import mass
 from morphing_wing.scene_dimensions import as_value, column_of, kind_of, unit_of
 from morphing_wing.scene_file import parse_scene
+from morphing_wing.studies.case import Case, run_case
 
 pytestmark = pytest.mark.quick
 
@@ -92,7 +92,7 @@ def test_columns_carry_the_units_of_keys_and_text_with_them_is_read_back_exactly
 def test_a_case_can_be_pickled_and_describing_it_loads_no_dolfinx():
     case = changed(geometry__top_thickness=1.3)
     assert case.file == pickle.loads(pickle.dumps(case)).file
-    code = ("import sys, morphing_wing.case as c; c.Case.of('spar-n4').file; "
+    code = ("import sys, morphing_wing.studies.case as c; c.Case.of('spar-n4').file; "
             "sys.exit('dolfinx' in sys.modules)")
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
 

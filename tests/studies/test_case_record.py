@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from morphing_wing.case_record import CaseRecord
 from morphing_wing.errors import InputError
+from morphing_wing.studies.case_record import CaseRecord
 
 pytestmark = pytest.mark.quick
 

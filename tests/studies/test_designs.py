@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from morphing_wing.designs import Design
 from morphing_wing.errors import InputError
-from morphing_wing.factors import Factor
-from morphing_wing.orthogonal_arrays import array_names, orthogonal_array
+from morphing_wing.studies.designs import Design
+from morphing_wing.studies.factors import Factor
+from morphing_wing.studies.orthogonal_arrays import array_names, orthogonal_array
 
 pytestmark = pytest.mark.quick
 

@@ -7,14 +7,14 @@ import pandas as pd
 import pytest
 from mpi4py import MPI
 
-from morphing_wing import figure6 as module
 from morphing_wing.errors import InputError
 from morphing_wing.figure5_curves import Curve
-from morphing_wing.figure6 import figure6
-from morphing_wing.figure6_cases import read_cases, write_cases
-from morphing_wing.figure6_points import PANELS
-from morphing_wing.figure6_report import report
-from morphing_wing.figure6_result import LINEAR_UP_TO
+from morphing_wing.figure6 import study as module
+from morphing_wing.figure6.cases import read_cases, write_cases
+from morphing_wing.figure6.points import PANELS
+from morphing_wing.figure6.report import report
+from morphing_wing.figure6.result import LINEAR_UP_TO
+from morphing_wing.figure6.study import figure6
 from morphing_wing.ladder import LADDERS
 from morphing_wing.rib import Rib
 from morphing_wing.table3 import rib_of

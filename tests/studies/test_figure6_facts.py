@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from morphing_wing.bulge import Bulge
-from morphing_wing.figure6_claims import claims
-from morphing_wing.figure6_points import PANELS, value_of
-from morphing_wing.figure6_sensitivities import sensitivities
+from morphing_wing.figure6.claims import claims
+from morphing_wing.figure6.points import PANELS, value_of
+from morphing_wing.figure6.sensitivities import sensitivities
 from morphing_wing.geometry.spar import SparGeometry
 
 pytestmark = pytest.mark.quick

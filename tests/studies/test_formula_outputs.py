@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from morphing_wing.case import Case, run_case
-from morphing_wing.formula_outputs import formula_outputs
+from morphing_wing.studies.case import Case, run_case
+from morphing_wing.studies.formula_outputs import formula_outputs
 
 pytestmark = pytest.mark.quick
 

@@ -8,15 +8,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from morphing_wing import optimize as study
-from morphing_wing.case import Case, run_case
 from morphing_wing.errors import InputError
-from morphing_wing.formula_outputs import formula_outputs
-from morphing_wing.optimize import described, optimize
-from morphing_wing.optimum_report import report
-from morphing_wing.problem import Goal
-from morphing_wing.problem_file import parse_problem, read_problem
-from morphing_wing.rung_search import climb
+from morphing_wing.optimization import optimum as study
+from morphing_wing.optimization.optimum import described, optimize
+from morphing_wing.optimization.problem import Goal
+from morphing_wing.optimization.problem_file import parse_problem, read_problem
+from morphing_wing.optimization.report import report
+from morphing_wing.optimization.rung_search import climb
+from morphing_wing.studies.case import Case, run_case
+from morphing_wing.studies.formula_outputs import formula_outputs
 
 pytestmark = pytest.mark.quick
 

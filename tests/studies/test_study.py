@@ -10,15 +10,15 @@ import pytest
 
 from morphing_wing.analytic_spar import SparFormula
 from morphing_wing.built_in import built_in_studies
-from morphing_wing.case import Case
-from morphing_wing.designs import Design
 from morphing_wing.errors import InputError
-from morphing_wing.factors import Factor
 from morphing_wing.geometry import SparGeometry
 from morphing_wing.materials import DRAGON_SKIN_30
-from morphing_wing.study import Study
-from morphing_wing.study_file import parse_study
-from morphing_wing.study_pictures import label
+from morphing_wing.studies.case import Case
+from morphing_wing.studies.designs import Design
+from morphing_wing.studies.factors import Factor
+from morphing_wing.studies.pictures import label
+from morphing_wing.studies.study import Study
+from morphing_wing.studies.study_file import parse_study
 
 pytestmark = pytest.mark.quick
 
@@ -187,9 +187,9 @@ def test_built_in_studies_can_be_computed_case_by_case(name):
 
 SCRIPT = """
 import os
-from morphing_wing.designs import Design
-from morphing_wing.factors import Factor
-from morphing_wing.study import Study
+from morphing_wing.studies.designs import Design
+from morphing_wing.studies.factors import Factor
+from morphing_wing.studies.study import Study
 
 def deadly(x):
     if x["a"] == 3:

@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import f_oneway
 
 from morphing_wing.errors import InputError
-from morphing_wing.variance_analysis import variance_analysis
+from morphing_wing.studies.variance_analysis import variance_analysis
 
 pytestmark = pytest.mark.quick
 

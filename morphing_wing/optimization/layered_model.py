@@ -17,8 +17,9 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 from scipy.linalg import LinAlgError
 
-from morphing_wing.formula_outputs import formula_outputs
-from morphing_wing.problem import Problem
+from morphing_wing.studies.formula_outputs import formula_outputs
+
+from .problem import Problem
 
 __all__ = ["LayeredModel", "unknown_direction"]
 

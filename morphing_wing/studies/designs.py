@@ -12,8 +12,9 @@ import numpy as np
 import pandas as pd
 
 from morphing_wing.errors import InputError, is_count, plain, require
-from morphing_wing.factors import Factor
-from morphing_wing.orthogonal_arrays import orthogonal_array
+
+from .factors import Factor
+from .orthogonal_arrays import orthogonal_array
 
 __all__ = ["KINDS", "VARIED", "Design"]
 

@@ -8,11 +8,12 @@ from typing import Any
 
 import pandas as pd
 
-from .errors import InputError, one_line
-from .figure5_curves import Curve
-from .figure6_points import PANELS
-from .figure6_result import Figure6
-from .root import on_root, write_whole
+from morphing_wing.errors import InputError, one_line
+from morphing_wing.figure5_curves import Curve
+from morphing_wing.root import on_root, write_whole
+
+from .points import PANELS
+from .result import Figure6
 
 __all__ = ["CASES", "read_cases", "write_cases"]
 

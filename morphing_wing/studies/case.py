@@ -18,11 +18,12 @@ from functools import cached_property
 from typing import Any
 
 from morphing_wing.built_in import built_in_scenes
-from morphing_wing.case_outputs import check_outputs, found_outputs, needs_limits
 from morphing_wing.errors import InputError, one_line
 from morphing_wing.scene_dimensions import as_value, kind_of
 from morphing_wing.scene_file import SceneFile, check_scene, located, parse_table, read_table
 from morphing_wing.scene_keys import SCENES
+
+from .case_outputs import check_outputs, found_outputs, needs_limits
 
 __all__ = ["ALWAYS", "Case", "run_case"]
 
@@ -162,7 +163,7 @@ def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[
     case
         What to compute.
     outputs
-        Names, each one of `morphing_wing.case_outputs.OUTPUTS` that the scene has: any column of
+        Names, each one of `case_outputs.OUTPUTS` that the scene has: any column of
         ``path.table()``, of its last row (``span_angle_deg``, ``chord_angle_deg``,
         ``energy_Nmm``, ...); what tells of limits, measured only if it is asked for
         (``largest_stretch``, ``material_stability``, ``rib_stress_MPa``, ``shaft_gap_mm``,

@@ -1,14 +1,4 @@
-"""Optimisation of any scene: the best design between bounds, searched cheaply, checked finely.
-
-.. code-block:: python
-
-    from morphing_wing.optimize import optimize
-    from morphing_wing.problem_file import read_problem
-
-    found = optimize(read_problem("spar"))
-    print(found.rungs(), found.best())
-    found.save("output/spar")            # design.toml is a scene file
-"""
+"""An optimisation: rung by rung the best design, and all that was computed for it."""
 
 from __future__ import annotations
 
@@ -23,17 +13,18 @@ import pandas as pd
 import tomli_w
 from mpi4py import MPI
 
-from .case import ALWAYS, Case, run_case
-from .errors import InputError
-from .interrupts import interrupts_noticed
-from .ladder import LADDERS
-from .optimum_picture import draw
+from morphing_wing.errors import InputError
+from morphing_wing.interrupts import interrupts_noticed
+from morphing_wing.ladder import LADDERS
+from morphing_wing.root import on_root, write_whole
+from morphing_wing.studies.case import ALWAYS, Case, run_case
+from morphing_wing.study_files import write_study
+from morphing_wing.summary import plain
+
+from .picture import draw
 from .problem import Constraint, Problem
-from .root import on_root, write_whole
 from .rung_search import climb
 from .seen_designs import Found, Request
-from .study_files import write_study
-from .summary import plain
 
 __all__ = ["Optimum", "optimize"]
 
@@ -166,7 +157,7 @@ def optimize(
     Parameters
     ----------
     problem
-        See `morphing_wing.problem_file.read_problem`.
+        See `morphing_wing.optimization.problem_file.read_problem`.
     comm
         Communicator of the scenes; this process alone by default.
     told

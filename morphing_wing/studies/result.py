@@ -11,16 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from morphing_wing.correlations import correlations
 from morphing_wing.errors import InputError
-from morphing_wing.one_at_a_time import effects
 from morphing_wing.range_analysis import range_analysis
-from morphing_wing.sobol_indices import sobol_indices
 from morphing_wing.study_files import write_study
-from morphing_wing.variance_analysis import variance_analysis
+
+from .correlations import correlations
+from .one_at_a_time import effects
+from .sobol_indices import sobol_indices
+from .variance_analysis import variance_analysis
 
 if TYPE_CHECKING:
-    from morphing_wing.study import Study
+    from .study import Study
 
 __all__ = ["StudyResult"]
 
@@ -114,7 +115,7 @@ class StudyResult:
 
     def save(self, folder: str | os.PathLike) -> None:
         """Write ``table.csv``, ``summary.json``, each analysis as a table, and the pictures."""
-        from morphing_wing.study_pictures import draw
+        from .pictures import draw
 
         folder = pathlib.Path(folder)
         write_study(folder, self.summary(), {"table": self.table.reset_index(), **self.analyses})

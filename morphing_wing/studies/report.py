@@ -11,7 +11,7 @@ from morphing_wing.terminal_tables import text_table
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from morphing_wing.study_result import StudyResult
+    from .result import StudyResult
 
 __all__ = ["report"]
 

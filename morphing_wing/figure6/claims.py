@@ -6,8 +6,8 @@ from typing import Any
 
 import pandas as pd
 
-from .figure6_points import Panel
-from .figure6_sensitivities import sensitivities
+from .points import Panel
+from .sensitivities import sensitivities
 
 __all__ = ["LITTLE", "claims"]
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from .figure6_points import Panel, value_of
+from .points import Panel, value_of
 
 __all__ = ["sensitivities"]
 

@@ -13,9 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from morphing_wing.designs import problem
 from morphing_wing.errors import InputError
-from morphing_wing.factors import Factor
+
+from .designs import problem
+from .factors import Factor
 
 __all__ = ["sobol_indices"]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import spearmanr
 
-from morphing_wing.factors import Factor
+from .factors import Factor
 
 __all__ = ["correlations"]
 

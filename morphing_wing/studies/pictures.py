@@ -13,13 +13,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from morphing_wing.curves import COLOURS, STYLE, save_figure
-from morphing_wing.designs import VARIED
-from morphing_wing.variance_analysis import REST
+
+from .designs import VARIED
+from .variance_analysis import REST
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from morphing_wing.study_result import StudyResult
+    from .result import StudyResult
 
 __all__ = ["draw"]
 

@@ -33,16 +33,17 @@ import pydantic
 from pydantic import Field
 
 from morphing_wing.built_in import built_in_scenes
-from morphing_wing.case import Case
-from morphing_wing.case_outputs import OUTPUTS
-from morphing_wing.designs import Design
 from morphing_wing.errors import InputError, is_number, plain, require
-from morphing_wing.factors import Factor
 from morphing_wing.scene_dimensions import column_of, counts, kind_of, unit_of
 from morphing_wing.scene_file import located, parse_table, read_table
 from morphing_wing.scene_keys import Keys, Text, sentence
-from morphing_wing.study import Study
 from morphing_wing.units import quantity
+
+from .case import Case
+from .case_outputs import OUTPUTS
+from .designs import Design
+from .factors import Factor
+from .study import Study
 
 __all__ = ["parse_study", "read_study"]
 
@@ -50,7 +51,7 @@ DEFAULT_OUTPUTS = ("span_angle_deg", "chord_angle_deg", "energy_Nmm", "mass_g")
 
 
 class DesignKeys(Keys):
-    """``[design]``, as `morphing_wing.designs.Design`."""
+    """``[design]``, as `morphing_wing.studies.designs.Design`."""
 
     kind: Text
     points: int | None = None

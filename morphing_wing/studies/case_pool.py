@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from morphing_wing.worker_processes import ended, worker_pool, world_of_their_own
+from .worker_processes import ended, worker_pool, world_of_their_own
 
 __all__ = ["GONE", "by_mpi", "here", "in_processes", "petsc_alone"]
 

@@ -15,16 +15,17 @@ from typing import Any
 
 import pandas as pd
 
-from morphing_wing.case import ALWAYS, Case, run_case
-from morphing_wing.case_outputs import check_outputs
-from morphing_wing.case_pool import by_mpi, here, in_processes
-from morphing_wing.case_record import CaseRecord
-from morphing_wing.designs import VARIED, Design
 from morphing_wing.errors import InputError, is_number, one_line
-from morphing_wing.factors import Factor
 from morphing_wing.scene_dimensions import kind_of
 from morphing_wing.scene_file import located
-from morphing_wing.study_result import StudyResult
+
+from .case import ALWAYS, Case, run_case
+from .case_outputs import check_outputs
+from .case_pool import by_mpi, here, in_processes
+from .case_record import CaseRecord
+from .designs import VARIED, Design
+from .factors import Factor
+from .result import StudyResult
 
 __all__ = ["Study"]
 

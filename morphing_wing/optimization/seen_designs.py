@@ -8,11 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from morphing_wing.box_search import best_in_box
 from morphing_wing.errors import InputError
-from morphing_wing.layered_model import LayeredModel
-from morphing_wing.prices import prices
-from morphing_wing.problem import HOLDS, Constraint, Problem
+
+from .box_search import best_in_box
+from .layered_model import LayeredModel
+from .prices import prices
+from .problem import HOLDS, Constraint, Problem
 
 __all__ = ["Found", "Request", "SeenDesigns"]
 
@@ -62,7 +63,7 @@ class Found:
     settled
         Whether it ended because there was nothing more to gain.
     prices
-        See `morphing_wing.prices.prices`; empty where the goal is to match.
+        See `morphing_wing.optimization.prices.prices`; empty where the goal is to match.
     residual
         Part of the goal's slope that active limits do not hold: next to 0 at an optimum.
     """

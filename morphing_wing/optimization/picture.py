@@ -12,12 +12,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from .curves import COLOURS, STYLE, save_figure
+from morphing_wing.curves import COLOURS, STYLE, save_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .optimize import Optimum
+    from .optimum import Optimum
 
 __all__ = ["draw"]
 

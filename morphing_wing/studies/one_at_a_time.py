@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from morphing_wing.designs import VARIED
-from morphing_wing.factors import Factor
+from .designs import VARIED
+from .factors import Factor
 
 __all__ = ["effects"]
 

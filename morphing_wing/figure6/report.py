@@ -8,9 +8,10 @@ import pandas as pd
 from rich.table import Table
 
 from morphing_wing.figure5_curves import Curve
-from morphing_wing.figure6_points import PANELS
-from morphing_wing.figure6_result import Figure6
 from morphing_wing.terminal_tables import text_table
+
+from .points import PANELS
+from .result import Figure6
 
 __all__ = ["report"]
 

@@ -28,13 +28,14 @@ import pydantic
 from pydantic import Field
 
 from morphing_wing.built_in import built_in_problems
-from morphing_wing.case import Case
 from morphing_wing.errors import InputError, is_number, plain
-from morphing_wing.problem import Constraint, Goal, Problem, Variable
 from morphing_wing.scene_dimensions import kind_of
 from morphing_wing.scene_file import located, parse_table, read_table
 from morphing_wing.scene_keys import Keys, Text, one_of
+from morphing_wing.studies.case import Case
 from morphing_wing.units import quantity
+
+from .problem import Constraint, Goal, Problem, Variable
 
 __all__ = ["parse_problem", "read_problem"]
 

@@ -1,6 +1,6 @@
 """Outputs of a case at fidelity "instant", of many changes of it at once.
 
-The same figures as `morphing_wing.case.run_case` gives of each change alone, a thousand times as
+The same figures as `run_case` gives of each change alone, a thousand times as
 fast. There are none where a scene has no formula, or a key is none of the formula's.
 """
 
@@ -15,10 +15,11 @@ import numpy as np
 from morphing_wing.analytic_rib import RibFormula
 from morphing_wing.analytic_spar import SparFormula
 from morphing_wing.arc_line import arc_line
-from morphing_wing.case import Case
 from morphing_wing.forms.gravity import mass_density
 from morphing_wing.geometry.rib import RibGeometry
 from morphing_wing.geometry.spar import SparGeometry
+
+from .case import Case
 
 __all__ = ["formula_outputs"]
 

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from scipy.optimize import nnls
 
-from morphing_wing.problem import Constraint, Problem
+from .problem import Constraint, Problem
 
 __all__ = ["prices"]
 

@@ -1,7 +1,7 @@
 """Optimisation up a ladder of fidelities: what a rung finds, the next finer one corrects.
 
 The formula's rung is searched as a whole. On every other rung a model of all that is known, see
-`morphing_wing.layered_model`, is searched in a box around the best design so far, and the design
+`layered_model`, is searched in a box around the best design so far, and the design
 that it promises is computed. Where the promise was good the box grows, where it was bad it shrinks
 (a trust region; with radial basis functions as an error model after March and Willcox 2012). Before
 a formula is trusted, points near the best design must span all directions; the slopes of a rung
@@ -18,9 +18,9 @@ from collections.abc import Generator
 
 import numpy as np
 
-from morphing_wing.layered_model import LayeredModel, unknown_direction
-from morphing_wing.problem import Problem
-from morphing_wing.seen_designs import Found, Request, SeenDesigns
+from .layered_model import LayeredModel, unknown_direction
+from .problem import Problem
+from .seen_designs import Found, Request, SeenDesigns
 
 __all__ = ["climb"]
 

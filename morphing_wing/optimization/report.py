@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 from rich.table import Table
 
-from morphing_wing.optimize import Optimum, Row
 from morphing_wing.terminal_tables import text_table
+
+from .optimum import Optimum, Row
 
 __all__ = ["in_a_line", "report"]
 

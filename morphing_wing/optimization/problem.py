@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from morphing_wing.case import Case
-from morphing_wing.case_outputs import check_outputs
 from morphing_wing.errors import InputError, require
 from morphing_wing.ladder import LADDERS
 from morphing_wing.scene_dimensions import column_of, unit_of
 from morphing_wing.scene_file import SceneFile
+from morphing_wing.studies.case import Case
+from morphing_wing.studies.case_outputs import check_outputs
 
 __all__ = ["HOLDS", "Constraint", "Goal", "Problem", "Variable"]
 

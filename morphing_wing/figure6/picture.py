@@ -14,8 +14,9 @@ from matplotlib.figure import Figure
 
 from morphing_wing.curves import STYLE, save_figure
 from morphing_wing.figure5_curves import Curve
-from morphing_wing.figure6_points import PANELS, Panel, value_of
 from morphing_wing.level_picture import look
+
+from .points import PANELS, Panel, value_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

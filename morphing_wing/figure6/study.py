@@ -4,7 +4,7 @@ A is the spar of Table 2 under its 20 kPa, B the rib of Table 3 under an end mom
 B for "an equivalent force loading to torque", of which it states no size, so that one moment is
 fitted, anew for each fidelity and each reading of the bars' section, to those rows of Table 3 that
 are points of B. As for Table 3 each rib is solved under 1 N mm and scaled. The figure itself is not
-at hand; what the paper says about it is in `figure6_claims`.
+at hand; what the paper says about it is in `claims`.
 """
 
 from __future__ import annotations
@@ -14,19 +14,20 @@ from typing import Any
 
 from mpi4py import MPI
 
-from .bulge import Bulge
-from .errors import require
-from .figure5 import ALL_RUNGS, FIDELITIES
-from .figure5_curves import Curve
-from .figure6_points import PANELS
-from .figure6_result import MEASURES, Figure6
-from .ladder import LADDERS
-from .path import Path
-from .rib import Rib
-from .solved_case import solved_case
-from .spar import Spar
-from .table2 import PRESSURE, spar_of
-from .table3 import rib_of
+from morphing_wing.bulge import Bulge
+from morphing_wing.errors import require
+from morphing_wing.figure5 import ALL_RUNGS, FIDELITIES
+from morphing_wing.figure5_curves import Curve
+from morphing_wing.ladder import LADDERS
+from morphing_wing.path import Path
+from morphing_wing.rib import Rib
+from morphing_wing.solved_case import solved_case
+from morphing_wing.spar import Spar
+from morphing_wing.table2 import PRESSURE, spar_of
+from morphing_wing.table3 import rib_of
+
+from .points import PANELS
+from .result import MEASURES, Figure6
 
 __all__ = ["READINGS", "figure6"]
 

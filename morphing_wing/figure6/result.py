@@ -10,17 +10,18 @@ from typing import Any
 import pandas as pd
 from mpi4py import MPI
 
-from .figure5 import ALL_RUNGS
-from .figure5_curves import Curve
-from .figure6_claims import claims
-from .figure6_picture import draw
-from .figure6_points import PANELS
-from .figure6_sensitivities import sensitivities
-from .root import on_root
-from .solved_case import OUTCOME
-from .study_files import write_study
-from .table2 import PRESSURE
-from .table3 import N_CELLS, fitted
+from morphing_wing.figure5 import ALL_RUNGS
+from morphing_wing.figure5_curves import Curve
+from morphing_wing.root import on_root
+from morphing_wing.solved_case import OUTCOME
+from morphing_wing.study_files import write_study
+from morphing_wing.table2 import PRESSURE
+from morphing_wing.table3 import N_CELLS, fitted
+
+from .claims import claims
+from .picture import draw
+from .points import PANELS
+from .sensitivities import sensitivities
 
 __all__ = ["LINEAR_UP_TO", "MEASURES", "Figure6"]
 

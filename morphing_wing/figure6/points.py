@@ -14,7 +14,7 @@ from functools import cached_property
 
 import pandas as pd
 
-from .printed_tables import TABLE_2, TABLE_3, PrintedTable
+from morphing_wing.printed_tables import TABLE_2, TABLE_3, PrintedTable
 
 __all__ = ["PANELS", "Panel", "value_of"]
 
