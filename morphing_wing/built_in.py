@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import pathlib
+from collections.abc import Mapping
 from importlib import resources
 
-__all__ = ["built_in_problems", "built_in_scenes", "built_in_studies"]
+from morphing_wing.errors import InputError
+
+__all__ = ["built_in_problems", "built_in_scenes", "built_in_studies", "or_hint", "shown"]
 
 
 def built_in_scenes() -> dict[str, str]:
@@ -20,6 +24,37 @@ def built_in_problems() -> dict[str, str]:
 def built_in_studies() -> dict[str, str]:
     """Return the TOML text of the built-in studies by name."""
     return texts("studies")
+
+
+def shown(texts: Mapping[str, str], what: str, name: str | None = None) -> str:
+    """Return a line a file, its name and what its first comment says; of a name, the whole text.
+
+    Raises
+    ------
+    InputError
+        ``scene 'spa': must be one of rib-prototype, ...``.
+    """
+    if name is None:
+        width = max(map(len, texts))
+        return "".join(f"{each:{width}}  {text.splitlines()[0].lstrip('# ')}\n"
+                       for each, text in texts.items())
+    if name not in texts:
+        raise InputError(f"{what} {name!r}: must be one of {', '.join(texts)}")
+    return texts[name]
+
+
+def or_hint(file: pathlib.Path, texts: Mapping[str, str], command: str) -> pathlib.Path:
+    """Return a file's name, or say which command writes it where a built-in one is called so.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, but a built-in one of its name.
+    """
+    if not file.exists() and file.stem in texts:
+        raise InputError(f"{file}: no such file, 'morphing-wing {command} {file.stem} > "
+                         f"{file.stem}.toml' writes one")
+    return file
 
 
 def texts(room: str) -> dict[str, str]:

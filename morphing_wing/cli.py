@@ -18,7 +18,7 @@ from typing import Annotated, Any
 import typer
 from mpi4py import MPI
 
-from morphing_wing.built_in import built_in_scenes
+from morphing_wing.built_in import built_in_scenes, or_hint, shown
 from morphing_wing.calibrate_command import calibrate
 from morphing_wing.errors import InputError, one_line, require
 from morphing_wing.optimize_command import optimize
@@ -80,7 +80,7 @@ def solve(
     require(modes >= 0, "--modes", modes, "", "0 or more")
 
     def read() -> Any:
-        checked = read_scene(or_hint(scene), fidelity)
+        checked = read_scene(or_hint(scene, built_in_scenes(), "scenes"), fidelity)
         check_folder(folder)
         if resume and not (folder / "restart.npz").is_file():
             raise InputError(f"--resume: {folder} must hold a restart.npz of a run to go on with")
@@ -141,15 +141,7 @@ def scenes(
     name: Annotated[str | None, typer.Argument(help="Print this scene's TOML.")] = None,
 ) -> int:
     """List the built-in scenes, or print one as TOML to start from."""
-    built_in = built_in_scenes()
-    if name is None:
-        width = max(map(len, built_in))
-        for each, text in built_in.items():
-            typer.echo(f"{each:{width}}  {text.splitlines()[0].lstrip('# ')}")
-    elif name in built_in:
-        typer.echo(built_in[name], nl=False)
-    else:
-        raise InputError(f"scene {name!r}: must be one of {', '.join(built_in)}")
+    typer.echo(shown(built_in_scenes(), "scene", name), nl=False)
     return DONE
 
 
@@ -204,14 +196,6 @@ def explain(problem: BaseException) -> tuple[int, str]:
         return UNEXPECTED, "".join(traceback.format_exception(problem))
     said = f"unexpected {type(problem).__name__}: {one_line(problem)}"
     return UNEXPECTED, f"morphing-wing: {said} (MORPHING_WING_DEBUG=1 shows where)"
-
-
-def or_hint(scene: pathlib.Path) -> pathlib.Path:
-    """Return the scene file, or say how to make it where it is a built-in scene's name."""
-    if not scene.exists() and scene.stem in built_in_scenes():
-        command = f"morphing-wing scenes {scene.stem} > {scene.stem}.toml"
-        raise InputError(f"{scene}: no such file, '{command}' writes one")
-    return scene
 
 
 def begin_saving(folder: pathlib.Path) -> None:

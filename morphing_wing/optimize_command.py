@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from mpi4py import MPI
 
-from morphing_wing.built_in import built_in_problems
+from morphing_wing.built_in import built_in_problems, shown
 from morphing_wing.errors import InputError
 from morphing_wing.out_folder import check_folder
 from morphing_wing.root import on_root
@@ -50,10 +50,9 @@ def optimize(
 
     A run that was stopped or killed goes on with --resume; what it has found is in the folder.
     """  # noqa: E501
-    if problem is None:
-        return listed()
-    if show:
-        return printed(problem)
+    if problem is None or show:
+        typer.echo(shown(built_in_problems(), "problem", problem), nl=False)
+        return DONE
     from morphing_wing.optimization.problem_file import read_problem
 
     comm = MPI.COMM_WORLD
@@ -131,21 +130,3 @@ def earlier(folder: pathlib.Path, problem: Problem) -> list[dict[str, Any]]:
     texts = ["refused", "stopped", "warned"]
     table[texts] = table[texts].fillna("").astype(str)
     return table.to_dict("records")
-
-
-def listed() -> int:
-    """Print the names of the built-in problems and what they are."""
-    problems = built_in_problems()
-    width = max(map(len, problems))
-    for name, text in problems.items():
-        typer.echo(f"{name:{width}}  {text.splitlines()[0].lstrip('# ')}")
-    return DONE
-
-
-def printed(name: str) -> int:
-    """Print a built-in problem's TOML."""
-    problems = built_in_problems()
-    if name not in problems:
-        raise InputError(f"problem {name!r}: must be one of {', '.join(problems)}")
-    typer.echo(problems[name], nl=False)
-    return DONE

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from mpi4py import MPI
 
-from morphing_wing.built_in import built_in_studies
+from morphing_wing.built_in import built_in_studies, or_hint, shown
 from morphing_wing.errors import InputError, require
 from morphing_wing.out_folder import check_folder
 from morphing_wing.root import on_root
@@ -71,7 +71,7 @@ def study(
     folder = pathlib.Path("output") / file.stem if out is None else out
 
     def read() -> Study:
-        found = read_study(or_hint(file))
+        found = read_study(or_hint(file, built_in_studies(), "studies"))
         check_folder(folder)
         return found
 
@@ -98,15 +98,7 @@ def studies(
     name: Annotated[str | None, typer.Argument(help="Print this study's TOML.")] = None,
 ) -> int:
     """List the built-in studies, or print one as TOML to start from."""
-    built_in = built_in_studies()
-    if name is None:
-        width = max(map(len, built_in))
-        for each, text in built_in.items():
-            typer.echo(f"{each:{width}}  {text.splitlines()[0].lstrip('# ')}")
-    elif name in built_in:
-        typer.echo(built_in[name], nl=False)
-    else:
-        raise InputError(f"study {name!r}: must be one of {', '.join(built_in)}")
+    typer.echo(shown(built_in_studies(), "study", name), nl=False)
     return DONE
 
 
@@ -174,11 +166,3 @@ def ended(result: StudyResult, folder: pathlib.Path) -> int:
         console().print(part, highlight=False, markup=False)
     typer.echo(f"results are in {folder}")
     return STOPPED if len(result.bad) == len(result.table) else DONE
-
-
-def or_hint(file: pathlib.Path) -> pathlib.Path:
-    """Return the study file, or say how to make it where it is a built-in study's name."""
-    if not file.exists() and file.stem in built_in_studies():
-        command = f"morphing-wing studies {file.stem} > {file.stem}.toml"
-        raise InputError(f"{file}: no such file, '{command}' writes one")
-    return file
