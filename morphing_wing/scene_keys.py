@@ -6,8 +6,8 @@ the file leaves out comes from the preset, or from the class's own defaults.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any, Literal, TypeVar
 
 import pydantic
 from pydantic import BeforeValidator, Field
@@ -28,7 +28,10 @@ from morphing_wing.scene_values import (
     or_none,
 )
 
-__all__ = ["SCENES", "Keys", "RibKeys", "SparKeys", "WingKeys", "check_keys", "one_of"]
+__all__ = [
+    "SCENES", "Keys", "RibKeys", "SparKeys", "Text", "WingKeys", "check_keys", "one_of",
+    "validated",
+]
 
 Count = Annotated[int, Field(ge=1, le=1000)]
 Text = Annotated[str, Field(min_length=1)]
@@ -44,6 +47,9 @@ class Keys(pydantic.BaseModel):
         names = [name for name in type(self).model_fields if name in self.model_fields_set]
         values = {name: getattr(self, name) for name in names}
         return {n: tuple(v) if isinstance(v, list) else v for n, v in values.items()}
+
+
+Model = TypeVar("Model", bound=Keys)
 
 
 class SparKeys(Keys):
@@ -208,10 +214,22 @@ def check_keys(table: dict[str, Any]) -> SparFile | RibFile | WingFile:
         raise InputError(f"scene: is missing, must be {one_of(SCENES)}")
     scene = table["scene"]
     require(isinstance(scene, str) and scene in SCENES, "scene", scene, "", one_of(SCENES))
+    return validated(SCENES[scene], table)
+
+
+def validated(model: type[Model], table: Mapping[str, Any], where: str = "") -> Model:
+    """Return a table's keys, checked by a model.
+
+    Raises
+    ------
+    InputError
+        In one sentence on what is wrong first; ``where`` stands before the key.
+    """
     try:
-        return SCENES[scene].model_validate(table)
+        return model.model_validate(table)
     except pydantic.ValidationError as problem:
-        raise InputError(sentence(problem.errors()[0], SCENES[scene])) from None
+        said = sentence(problem.errors()[0], model)
+        raise InputError(f"{where}.{said}" if where else said) from None
 
 
 def sentence(error: Any, model: type[Keys]) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
-from morphing_wing.errors import is_number
+from morphing_wing.errors import InputError, is_number, plain
 from morphing_wing.units import KINDS, quantity
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Torque",
     "Toughness",
     "or_none",
+    "quantity_at",
 ]
 
 MAX_POINTS = 10_000
@@ -40,6 +41,20 @@ class Kind:
 def measured(kind: str) -> BeforeValidator:
     """Return a validator of text with a unit."""
     return BeforeValidator(lambda value: quantity(value, kind))
+
+
+def quantity_at(where: str, value: Any, kind: str) -> float:
+    """Return text with a unit as a number of the package's; ``where`` names it in errors.
+
+    Raises
+    ------
+    InputError
+        ``factors.geometry.top_thickness.low = 1: must be a length as text with its unit, ...``.
+    """
+    try:
+        return quantity(value, kind)
+    except ValueError as problem:
+        raise InputError(f"{where} = {plain(value)}: {problem}") from None
 
 
 def or_none(value: Any) -> Any:

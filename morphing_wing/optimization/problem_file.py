@@ -24,16 +24,16 @@ import pathlib
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-import pydantic
 from pydantic import Field
 
 from morphing_wing.built_in import built_in_problems
 from morphing_wing.errors import InputError, is_number, plain
 from morphing_wing.scene_dimensions import kind_of
 from morphing_wing.scene_file import located, parse_table, read_table
-from morphing_wing.scene_keys import Keys, Text, one_of
+from morphing_wing.scene_keys import Keys, Text, one_of, validated
+from morphing_wing.scene_values import quantity_at
 from morphing_wing.studies.case import Case
-from morphing_wing.units import quantity
+from morphing_wing.studies.dotted_keys import flat, has_keys_of
 
 from .problem import Constraint, Goal, Problem, Variable
 
@@ -110,38 +110,19 @@ def parse_problem(
         Where the scene's file is looked for.
     """
     with located(name):
-        keys = _validated(ProblemKeys, dict(table), "")
-        case = Case.of(_scene(keys.scene, folder), flat(keys.base))
+        keys = validated(ProblemKeys, table)
+        case = Case.of(keys.scene, flat(keys.base), folder)
         with located(BASE):
             scene = case.scene
         given = {"rungs": tuple(keys.rungs) if keys.rungs else None,
                  "evaluations": keys.evaluations, "tolerance": keys.tolerance,
                  "own_slopes": keys.own_slopes}
         return Problem(
-            case, _goal(keys), tuple(_variable(scene, key, value) for key, value
-                                     in flat(keys.variables).items()),
+            case, _goal(keys),
+            tuple(_variable(scene, key, value) for key, value
+                  in flat(keys.variables, has_keys_of(RangeKeys)).items()),
             tuple(c for output, value in keys.constraints.items() for c in _limits(output, value)),
             **{key: value for key, value in given.items() if value is not None})
-
-
-def flat(table: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Return tables within tables as keys with dots, down to bounds and ranges."""
-    found: dict[str, Any] = {}
-    for key, value in table.items():
-        inner = isinstance(value, Mapping) and not {"low", "high", "to"} & set(value)
-        found |= flat(value, f"{before}{key}.") if inner else {f"{before}{key}": value}
-    return found
-
-
-def _scene(given: Any, folder: str | pathlib.Path) -> str | Mapping[str, Any]:
-    """Return a scene's table, the name of a built-in one, or a file beside the problem's."""
-    if isinstance(given, Mapping):
-        return given
-    if not isinstance(given, str):
-        raise InputError(f"scene = {plain(given)}: must be a scene file, a built-in scene's name, "
-                         "or a scene file's table")
-    beside = pathlib.Path(folder) / given
-    return str(beside) if beside.is_file() else given
 
 
 def _goal(keys: ProblemKeys) -> Goal:
@@ -163,7 +144,7 @@ def _variable(scene: str, key: str, value: Any) -> Variable:
         example = "1.0" if kind is None else '"1.0 mm"'
         raise InputError(f"{where} = {plain(value)}: must be written as "
                          f"{{ low = {example}, high = ... }}")
-    bounds = _validated(RangeKeys, dict(value), where)
+    bounds = validated(RangeKeys, value, where)
     return Variable(key, *(_number(bound, kind, f"{where}.{end}") for end, bound
                            in (("low", bounds.low), ("high", bounds.high))))
 
@@ -173,7 +154,7 @@ def _limits(output: str, value: Any) -> list[Constraint]:
     if not isinstance(value, Mapping):
         raise InputError(f"{where} = {plain(value)}: must be written as {{ max = ... }}, "
                          "{ min = ... } or with both")
-    given = _validated(LimitKeys, dict(value), where).given()
+    given = validated(LimitKeys, value, where).given()
     if not given:
         raise InputError(f"{where}: is empty, must have min, max or both")
     return [Constraint(output, side, None if limit == BASE
@@ -192,21 +173,4 @@ def _number(value: Any, kind: str | None, where: str) -> float:
         if not is_number(value) or value != value or abs(value) == float("inf"):
             raise InputError(f"{where} = {plain(value)}: must be a plain finite number")
         return float(value)
-    try:
-        return quantity(value, kind)
-    except ValueError as problem:
-        raise InputError(f"{where} = {plain(value)}: {problem}") from None
-
-
-def _validated(model: type[Keys], table: dict[str, Any], where: str) -> Any:
-    try:
-        return model.model_validate(table)
-    except pydantic.ValidationError as problem:
-        error = problem.errors()[0]
-    place = ".".join(filter(None, [where, *(str(part) for part in error["loc"])]))
-    if error["type"] == "missing":
-        raise InputError(f"{place}: is missing, must be given")
-    if error["type"] == "extra_forbidden":
-        raise InputError(f"{place}: unknown key, must be {one_of(model.model_fields)}")
-    said = error["msg"].replace("Input should", "must").replace("List should", "must")
-    raise InputError(f"{place} = {plain(error['input'])}: {said}")
+    return quantity_at(where, value, kind)

@@ -18,7 +18,7 @@ from functools import cached_property
 from typing import Any
 
 from morphing_wing.built_in import built_in_scenes
-from morphing_wing.errors import InputError, one_line
+from morphing_wing.errors import InputError, one_line, plain
 from morphing_wing.scene_dimensions import as_value, kind_of
 from morphing_wing.scene_file import SceneFile, check_scene, located, parse_table, read_table
 from morphing_wing.scene_keys import SCENES
@@ -63,9 +63,18 @@ class Case:
     @classmethod
     def of(
         cls, scene: str | os.PathLike | Mapping[str, Any],
-        changes: Mapping[str, Any] | None = None,
+        changes: Mapping[str, Any] | None = None, folder: str | os.PathLike = ".",
     ) -> Case:
         """Return a case of a built-in scene's name, a scene file, or such a file's table.
+
+        Parameters
+        ----------
+        scene
+            Which of these.
+        changes
+            See `Case`.
+        folder
+            Where the scene file is looked for.
 
         Raises
         ------
@@ -75,13 +84,17 @@ class Case:
         changes = dict(changes or {})
         if isinstance(scene, Mapping):
             return cls(scene, changes)
+        if not isinstance(scene, (str, os.PathLike)):
+            raise InputError(f"scene = {plain(scene)}: must be a scene file, a built-in scene's "
+                             "name, or a scene file's table")
         built_in = built_in_scenes()
         if str(scene) in built_in:
             return cls(parse_table(built_in[str(scene)], str(scene)), changes, str(scene))
         if pathlib.Path(scene).suffix != ".toml":
             raise InputError(f"scene = {str(scene)!r}: must be a scene file, NAME.toml, or one of "
                              f"{', '.join(built_in)}")
-        return cls(read_table(scene), changes, str(scene))
+        file = pathlib.Path(folder) / scene
+        return cls(read_table(file), changes, str(file))
 
     def changed(self, changes: Mapping[str, Any]) -> Case:
         """Return the case with more changes; of a key that was changed before, the new value."""

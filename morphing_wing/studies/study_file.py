@@ -26,22 +26,20 @@ What cannot be computed with is refused in one sentence that names file, key and
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Iterator, Mapping
 from typing import Annotated, Any
 
-import pydantic
 from pydantic import Field
 
-from morphing_wing.built_in import built_in_scenes
 from morphing_wing.errors import InputError, is_number, plain, require
 from morphing_wing.scene_dimensions import column_of, counts, kind_of, unit_of
 from morphing_wing.scene_file import located, parse_table, read_table
-from morphing_wing.scene_keys import Keys, Text, sentence
-from morphing_wing.units import quantity
+from morphing_wing.scene_keys import Keys, Text, validated
+from morphing_wing.scene_values import quantity_at
 
 from .case import Case
 from .case_outputs import OUTPUTS
 from .designs import Design
+from .dotted_keys import flat, has_keys_of
 from .factors import Factor
 from .study import Study
 
@@ -73,7 +71,7 @@ class FactorKeys(Keys):
 class StudyKeys(Keys):
     """A study file."""
 
-    scene: Text | dict[str, Any]
+    scene: Any
     outputs: Annotated[list[Text] | None, Field(min_length=1)] = None
     base: dict[str, Any] = {}
     factors: Annotated[dict[str, Any], Field(min_length=1)]
@@ -100,43 +98,16 @@ def parse_study(text: str, name: str) -> Study:
 def check_study(table: dict[str, Any], name: str, stem: str, folder: pathlib.Path) -> Study:
     """Check a study given as the table that its TOML holds; scene files are beside ``folder``."""
     with located(name):
-        try:
-            keys = StudyKeys.model_validate(table)
-        except pydantic.ValidationError as problem:
-            raise InputError(said(problem)) from None
-        case = scene_of(keys.scene, folder).changed(dict(flat(keys.base)))
+        keys = validated(StudyKeys, table)
+        case = Case.of(keys.scene, flat(keys.base), folder)
         scene = case.scene
-        factors = [factor_of(case, key, given) for key, given in flat(keys.factors, FactorKeys)]
+        factors = [factor_of(case, key, given) for key, given
+                   in flat(keys.factors, has_keys_of(FactorKeys)).items()]
         design = Design(**keys.design.given())
         default = [output for output in DEFAULT_OUTPUTS if output in OUTPUTS[scene]]
         study = Study(case, factors, design, keys.outputs or default, stem)
         study.inputs()  # refuses factors that do not go with the design
     return study
-
-
-def scene_of(scene: str | dict[str, Any], folder: pathlib.Path) -> Case:
-    """Return the case of the scene as it stands."""
-    if isinstance(scene, dict) or scene in built_in_scenes():
-        return Case.of(scene)
-    if not scene.endswith(".toml"):
-        raise InputError(f"scene = {scene!r}: must be a scene file, NAME.toml, or one of "
-                         f"{', '.join(built_in_scenes())}")
-    return Case.of(folder / scene)
-
-
-def flat(table: Mapping[str, Any], leaf: type[Keys] | None = None, above: str = "") -> Iterator[
-    tuple[str, Any]
-]:
-    """Yield dotted keys and values of nested tables; a table with a key of ``leaf`` is a value."""
-    for name, value in table.items():
-        key = f"{above}{name}"
-        inside = isinstance(value, dict) and not (
-            leaf is not None and (not value or set(value) & set(leaf.model_fields)))
-        # A load given as a range is a value too.
-        if inside and not (leaf is None and {"to", "points"} <= set(value)):
-            yield from flat(value, leaf, f"{key}.")
-        else:
-            yield key, value
 
 
 def factor_of(case: Case, key: str, given: Any) -> Factor:
@@ -148,10 +119,7 @@ def factor_of(case: Case, key: str, given: Any) -> Factor:
     if not isinstance(given, dict):
         raise InputError(f"{where} = {plain(given)}: must be a table, such as {{ low = ..., high = "
                          "... }, { within = 0.1 } or { levels = [..., ...] }")
-    try:
-        keys = FactorKeys.model_validate(given)
-    except pydantic.ValidationError as problem:
-        raise InputError(f"{where}.{said(problem, FactorKeys)}") from None
+    keys = validated(FactorKeys, given, where)
     names = dict(column=column_of(scene, key), unit=unit_of(scene, key))
     with located("factors"):
         if keys.within is not None:
@@ -184,12 +152,4 @@ def value_of(scene: str, key: str, where: str, given: Any) -> Any:
         if not isinstance(given, (str, bool, int, float)):
             raise InputError(f"{where} = {plain(given)}: must be a number, a word, true or false")
         return given
-    try:
-        return quantity(given, kind)
-    except ValueError as problem:
-        raise InputError(f"{where} = {plain(given)}: {problem}") from None
-
-
-def said(problem: pydantic.ValidationError, model: type[Keys] = StudyKeys) -> str:
-    """Return one sentence for what pydantic found first."""
-    return sentence(problem.errors()[0], model)
+    return quantity_at(where, given, kind)

@@ -68,6 +68,9 @@ BROKEN = {
     "variable without bounds": (
         problem(variables='geometry.wall_length = "2 mm"'),
         "variables.geometry.wall_length = '2 mm': must be written as { low = "),
+    "variable without anything": (
+        problem(variables="geometry.wall_length = {}"),
+        "variables.geometry.wall_length.low: is missing"),
     "variable with one bound": (
         problem(variables='geometry.wall_length = { low = "2 mm" }'),
         "variables.geometry.wall_length.high: is missing"),

@@ -54,7 +54,7 @@ BROKEN = {
                       "scene = 'kite': must be a scene file, NAME.toml, or one of rib-prototype, "),
     "scene file that is not there": (
         toml(head='scene = "kite.toml"'), "kite.toml: cannot be read, no such file"),
-    "scene as number": (toml(head="scene = 3"), "scene"),
+    "scene as number": (toml(head="scene = 3"), "scene = 3: must be a scene file, a built-in"),
     "scene table without scene": (
         toml(head="", scene='fidelity = "draft"'), "scene: is missing, must be one of spar, rib"),
     "broken scene table": (

@@ -64,6 +64,14 @@ def test_entries_of_a_list_change_alone():
         0.117, 0.0)
 
 
+def test_a_scene_file_is_looked_for_in_its_folder(tmp_path):
+    (tmp_path / "mine.toml").write_text('scene = "spar"\ngeometry.preset = "validation"\n'
+                                        'loads.upper = "20 kPa"\n')
+    assert Case.of("mine.toml", folder=tmp_path).value("loads.upper") == 0.02
+    with pytest.raises(InputError, match="mine.toml: cannot be read, no such file"):
+        Case.of("mine.toml", folder=tmp_path / "elsewhere")
+
+
 def test_the_value_of_a_key_that_the_file_leaves_out_is_the_presets():
     wing = Case.of("wing-cables")
     assert [INSTANT.value(key) for key in (
