@@ -17,7 +17,8 @@ import numpy as np
 from mpi4py import MPI
 
 __all__ = [
-    "BAD_INPUT", "DONE", "INTERRUPTED", "NOT_VERIFIED", "STOPPED", "UNEXPECTED", "run_together",
+    "BAD_INPUT", "DONE", "INTERRUPTED", "NOT_VERIFIED", "PATIENCE", "STOPPED", "UNEXPECTED",
+    "agree", "run_together",
 ]
 
 DONE, UNEXPECTED, BAD_INPUT, STOPPED, NOT_VERIFIED, INTERRUPTED = 0, 1, 2, 3, 4, 130

@@ -17,11 +17,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from mpi4py import MPI
+
 from morphing_wing.built_in import built_in_scenes
 from morphing_wing.errors import InputError, one_line, plain
 from morphing_wing.scene_dimensions import as_value, kind_of
 from morphing_wing.scene_file import SceneFile, check_scene, located, parse_table, read_table
 from morphing_wing.scene_keys import SCENES
+from morphing_wing.together import DONE, PATIENCE, UNEXPECTED, agree
 
 from .case_outputs import check_outputs, found_outputs, needs_limits
 
@@ -168,8 +171,10 @@ class Case:
         return owner
 
 
-def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[str, Any]:
-    """Compute a case and return what was asked of its last state.
+def run_case(
+    case: Case, outputs: Sequence[str] = (), comm: MPI.Comm | None = None
+) -> dict[str, Any]:
+    """Compute a case and return what was asked of its last state. Collective.
 
     Parameters
     ----------
@@ -190,19 +195,30 @@ def run_case(case: Case, outputs: Sequence[str] = (), comm: Any = None) -> dict[
         The outputs, not a number where the last load was not reached; ``dofs``; the path's
         ``newton_iterations`` and ``seconds``; and three texts, empty if all went well: ``refused``
         says why the case cannot be computed, ``stopped`` why its path ended before the last load
-        or what went wrong, ``warned`` what the package warned of.
+        or what went wrong, ``warned`` what the package warned of. What goes wrong on one rank alone
+        is told on all; where the others wait for that rank, it ends them.
     """
+    comm = MPI.COMM_SELF if comm is None else comm
+    ends = comm.Dup() if comm.size > 1 else None  # apart from the messages of the scene
     found: dict[str, Any] = dict.fromkeys(outputs, float("nan"))
     found |= dict.fromkeys(ALWAYS, "") | {"dofs": 0, "newton_iterations": 0}
+    nothing, failure = dict(found), None
     begin = time.perf_counter()
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         try:
             found |= _solved(case, outputs, comm)
         except InputError as problem:
-            found["refused"] = one_line(problem)
+            found["refused"] = failure = one_line(problem)
         except Exception as problem:  # one bad case must not end a thousand others
-            found["stopped"] = f"unexpected {type(problem).__name__}: {one_line(problem)}"
+            failure = f"unexpected {type(problem).__name__}: {one_line(problem)}"
+            found["stopped"] = failure
+    if ends is not None:
+        _, speaker = agree(ends, UNEXPECTED if failure else DONE, failure, PATIENCE)
+        if speaker < ends.size:
+            found = nothing | ends.bcast(
+                {name: found[name] for name in ("refused", "stopped")}, root=speaker)
+        ends.Free()
     if found["dofs"]:
         gc.collect()  # a scene's matrices and factors go together
     ours = (w for w in said if issubclass(w.category, UserWarning))
@@ -230,14 +246,10 @@ def _put(base: Case, table: dict[str, Any], key: str, value: Any) -> None:
     table[last] = value
 
 
-def _solved(case: Case, outputs: Sequence[str], comm: Any) -> dict[str, Any]:
+def _solved(case: Case, outputs: Sequence[str], comm: MPI.Comm) -> dict[str, Any]:
     file = case.file
     with located(case.name):
         check_outputs(file, outputs)
-    if comm is None:
-        from mpi4py import MPI
-
-        comm = MPI.COMM_SELF
     with located(case.name):
         scene = file.build(comm, limits=needs_limits(file, outputs))
         path = file.run(scene)
