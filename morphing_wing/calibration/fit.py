@@ -173,7 +173,7 @@ def _solved(slopes: np.ndarray, data: Points) -> tuple[np.ndarray, float]:
 def _nonlinear(law: Law, data: Points) -> np.ndarray:
     """Return Ogden's constants: moduli by linear least squares for many exponents, then all.
 
-    Moduli are kept positive, which is Drucker's condition at every stretch. Else two terms run
+    Moduli are kept positive, so that Drucker's condition holds at every stretch. Else two terms run
     away, with exponents that become one and moduli that grow without bound against each other.
     """
     assert isinstance(law, OgdenLaw)

@@ -11,6 +11,8 @@ import numpy as np
 import pandas as pd
 
 from morphing_wing.materials import Yeoh
+from morphing_wing.root import write_whole
+from morphing_wing.study_files import write_study
 
 from .deformation import MODES
 from .fit import Fit
@@ -162,9 +164,6 @@ class Calibration:
 
     def save(self, directory: str | os.PathLike) -> None:
         """Write table, stability and curves as CSV, summary.json, elastomer.toml, a picture."""
-        from morphing_wing.root import write_whole
-        from morphing_wing.study_files import write_study
-
         folder = pathlib.Path(directory)
         write_study(folder, self.summary(), {
             "table": self.table(), "stability": self.stability(), "curves": self.curves()})

@@ -11,6 +11,9 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+import threadpoolctl
+from mpi4py import MPI
+
 from .worker_processes import ended, worker_pool, world_of_their_own
 
 __all__ = ["GONE", "by_mpi", "here", "in_processes", "petsc_alone"]
@@ -25,8 +28,6 @@ _AHEAD = 2  # cases that wait for each worker, so that none waits for a case
 
 def here(compute: Compute, tasks: Iterable[Task]) -> Iterator[tuple[int, dict[str, Any]]]:
     """Compute all tasks in this process, on one thread as others do."""
-    import threadpoolctl
-
     with threadpoolctl.threadpool_limits(1):  # once: to look for all libraries takes milliseconds
         for number, task in tasks:
             yield number, compute(task)
@@ -117,7 +118,6 @@ def petsc_alone() -> None:
     Otherwise its beginning and its end wait for all ranks, and those deal with cases.
     """
     import petsc4py
-    from mpi4py import MPI
 
     petsc4py.init(comm=MPI.COMM_SELF)
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.stats import qmc
 
 from morphing_wing.errors import InputError, is_count, plain, require
 
@@ -141,14 +142,12 @@ def _one_at_a_time(
 def _latin_hypercube(
     design: Design, factors: Sequence[Factor], _: Mapping[str, Any]
 ) -> pd.DataFrame:
-    from scipy.stats import qmc
-
     sample = qmc.LatinHypercube(len(factors), seed=design.seed).random(design.points)
     return _at(factors, sample)
 
 
 def _sobol(design: Design, factors: Sequence[Factor], _: Mapping[str, Any]) -> pd.DataFrame:
-    from SALib.sample import sobol
+    from SALib.sample import sobol  # takes a second
 
     return _at(factors, sobol.sample(problem(factors), design.points, seed=design.seed,
                                      calc_second_order=design.second_order))

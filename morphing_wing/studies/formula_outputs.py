@@ -1,7 +1,7 @@
 """Outputs of a case at fidelity "instant", of many changes of it at once.
 
-The same figures as `run_case` gives of each change alone, a thousand times as
-fast. There are none where a scene has no formula, or a key is none of the formula's.
+The same figures as `run_case` gives of each change alone, a thousand times as fast. There are none
+where a scene has no formula, or a key is none of the formula's.
 """
 
 from __future__ import annotations

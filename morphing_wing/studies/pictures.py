@@ -165,7 +165,7 @@ def sobol_bars(result: StudyResult, folder: pathlib.Path) -> pathlib.Path | None
 
 def _panels(
     result: StudyResult, file: pathlib.Path, panel: Callable[[Axes, str, Any], None], words: str
-) -> pathlib.Path:
+) -> pathlib.Path | None:
     """Draw a row of panels for each output that is known, a column for each factor."""
     study = result.study
     outputs = [name for name in study.outputs if result.table[name].notna().any()]
