@@ -10,16 +10,15 @@ found by least squares that are not negative; what remains says how far from an 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.optimize import nnls
 
+from .box_search import Pieces
 from .problem import Constraint, Problem
 
 __all__ = ["prices"]
-
-Pieces = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 STEP = 1e-5
 AT_LIMIT = 3e-3

@@ -42,11 +42,13 @@ def _rungs(optimum: Optimum) -> Table:
     output, rows = optimum.problem.goal.output, []
     for fact in optimum.rungs().to_dict("records"):
         first, last = fact[f"start_{output}"], fact[f"best_{output}"]
+        known = np.isfinite(last)
         rows.append((fact["rung"], str(fact["evaluations"]), f"{fact['seconds']:.3g}",
-                     f"{first:.5g}", f"{last:.5g}", f"{100 * (last / first - 1):+.2f} %"
-                     if first else "", fact["reason"]))
+                     f"{first:.5g}", f"{last:.5g}" if known else "none",
+                     f"{100 * (last / first - 1):+.2f} %" if known and first else "",
+                     fact["reason"]))
     return text_table(f"{optimum.problem.goal}", ("rung", "designs", "seconds", "start", "best",
-                                                  "gain", "ended"), rows)
+                                                  "change", "ended"), rows)
 
 
 def _variables(optimum: Optimum, start: Row, best: Row, prices: Mapping[str, float]) -> Table:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from morphing_wing.curves import COLOURS, STYLE, save_figure
 
 from .designs import VARIED
-from .variance_analysis import REST
+from .variance_analysis import RESIDUAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -131,7 +131,7 @@ def variance_shares(result: StudyResult, folder: pathlib.Path) -> pathlib.Path |
         shares = 100.0 * found["share"].to_numpy()
         y = np.arange(len(found))[::-1]
         axes.barh(y, shares, 0.62, color=[
-            _GREY if source == REST else COLOURS[0] for source in found["source"]])
+            _GREY if source == RESIDUAL else COLOURS[0] for source in found["source"]])
         for place, share, p in zip(y, shares, found["p"], strict=True):
             text = f" {share:.2g} %" if 0.0 < share < 1.0 else f" {share:.1f} %"
             axes.text(share, place, text + (f", {_chance(p)}" if np.isfinite(p) else ""),

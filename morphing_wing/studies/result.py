@@ -131,7 +131,7 @@ def _variance(result: StudyResult, output: str, said: list[str]) -> pd.DataFrame
     columns = [factor.column for factor in result.study.factors]
     pairs = result.study.design.kind == "full_factorial" and len(columns) > 2
     found = variance_analysis(result.table, columns, output, interactions=pairs)
-    if found["freedom"].iloc[-1] == 0:
+    if found["degrees_of_freedom"].iloc[-1] == 0:
         said.append(f"{output}: the factors take all degrees of freedom, nothing is left to "
                     "compare them with (F, p)")
     return found

@@ -22,9 +22,9 @@ from scipy.stats import f as f_distribution
 
 from morphing_wing.range_analysis import range_analysis
 
-__all__ = ["REST", "variance_analysis"]
+__all__ = ["RESIDUAL", "variance_analysis"]
 
-REST = "rest"
+RESIDUAL = "residual"
 """Row of what the factors leave over."""
 
 ROUNDING = 1e-12
@@ -51,9 +51,9 @@ def variance_analysis(
     Returns
     -------
     DataFrame
-        One row a source, the last is the rest: ``source``, ``sum_of_squares``, ``freedom``,
-        ``mean_square``, ``F``, ``p`` (both not a number where nothing is left over),
-        ``share`` of all squares, ``contribution``.
+        One row a source, the last is the residual: ``source``, ``sum_of_squares``,
+        ``degrees_of_freedom``, ``mean_square``, ``F``, ``p`` (both not a number where nothing is
+        left over), ``share`` of all squares, ``contribution``.
 
     Raises
     ------
@@ -63,11 +63,11 @@ def variance_analysis(
     Examples
     --------
     >>> tests = pd.DataFrame({"a": [1, 1, 2, 2], "b": [1, 2, 1, 2], "y": [1.0, 2.0, 5.0, 6.2]})
-    >>> variance_analysis(tests, ["a", "b"], "y")[["source", "freedom", "F"]].round(1)
-      source  freedom       F
-    0      a        1  1681.0
-    1      b        1   121.0
-    2   rest        1     NaN
+    >>> variance_analysis(tests, ["a", "b"], "y")[["source", "degrees_of_freedom", "F"]].round(1)
+         source  degrees_of_freedom       F
+    0         a                   1  1681.0
+    1         b                   1   121.0
+    2  residual                   1     NaN
     """
     levels = range_analysis(table, factors, response)
     values = table[response].to_numpy(float)
@@ -83,17 +83,19 @@ def variance_analysis(
             squares[f"{a} x {b}"] = beyond if beyond > ROUNDING * total else 0.0
             freedom[f"{a} x {b}"] = freedom[a] * freedom[b]
     rest, free = total - sum(squares.values()), len(values) - 1 - sum(freedom.values())
-    found = pd.DataFrame({"source": [*squares, REST], "sum_of_squares": [*squares.values(), rest],
-                          "freedom": [*freedom.values(), free]})
+    found = pd.DataFrame({
+        "source": [*squares, RESIDUAL], "sum_of_squares": [*squares.values(), rest],
+        "degrees_of_freedom": [*freedom.values(), free]})
+    degrees = found["degrees_of_freedom"]
     known = free > 0 and rest > ROUNDING * total  # or it is nothing to compare with
     error = rest / free if known else np.nan
     found.loc[found.index[-1], "sum_of_squares"] = rest if known else 0.0
-    found["mean_square"] = found["sum_of_squares"] / found["freedom"].where(found["freedom"] > 0)
-    sources = found["source"] != REST
+    found["mean_square"] = found["sum_of_squares"] / degrees.where(degrees > 0)
+    sources = found["source"] != RESIDUAL
     found["F"] = (found["mean_square"] / error).where(sources)
-    found["p"] = f_distribution.sf(found["F"], found["freedom"], free) if known else np.nan
+    found["p"] = f_distribution.sf(found["F"], degrees, free) if known else np.nan
     found["share"] = found["sum_of_squares"] / total if total > 0.0 else 0.0
-    taken = found["freedom"] * (error if known else 0.0)
+    taken = degrees * (error if known else 0.0)
     pure = (found["sum_of_squares"] - taken) / total if total > 0.0 else 0.0 * taken
     found["contribution"] = pure.where(sources, 1.0 - pure[sources].sum() if total > 0.0 else 0.0)
     return found

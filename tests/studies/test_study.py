@@ -139,6 +139,17 @@ def test_rank_correlation_is_one_where_a_response_rises_and_effects_are_slopes()
     assert effects.loc["word", "change"] == 1.0
 
 
+def test_a_linear_response_has_its_slopes_times_spreads_as_standardized_coefficients():
+    factors = [Factor("a", low=0.0, high=1.0), Factor("b", low=0.0, high=3.0)]
+    result = Study(lambda x: 2.0 * x["a"] - 5.0 * x["b"], factors,
+                   Design("latin_hypercube", points=40), ["y"]).run()
+    found = result.analysis_of("correlations", "y").set_index("factor")
+    spread = result.table[["a", "b", "y"]].std()
+    assert found["standardized_coefficient"].tolist() == pytest.approx(
+        [2.0 * spread["a"] / spread["y"], -5.0 * spread["b"] / spread["y"]])
+    assert found["r_squared"].tolist() == pytest.approx([1.0, 1.0])
+
+
 @pytest.mark.parametrize(("kind", "pictures"), [
     ({"kind": "orthogonal", "levels": 3}, {"main_effects.png", "variance.png"}),
     ({"kind": "full_factorial", "levels": 2}, {"main_effects.png", "variance.png"}),

@@ -21,7 +21,7 @@ def test_one_factor_with_repeated_tests_has_the_f_and_p_of_a_one_way_analysis():
     expected = f_oneway(*groups)
     assert found.loc["a", "F"] == pytest.approx(expected.statistic, rel=1e-12)
     assert found.loc["a", "p"] == pytest.approx(expected.pvalue, rel=1e-10)
-    assert found["freedom"].tolist() == [2, 15]
+    assert found["degrees_of_freedom"].tolist() == [2, 15]
 
 
 def full(levels, response):
@@ -36,8 +36,8 @@ def test_squares_of_factors_pairs_and_rest_make_up_those_of_all_tests():
     total = ((table["y"] - table["y"].mean()) ** 2).sum()
     assert found["sum_of_squares"].sum() == pytest.approx(total, rel=1e-12)
     assert found["share"].sum() == pytest.approx(1.0) == found["contribution"].sum()
-    assert found["freedom"].to_dict() == {
-        "a": 1, "b": 2, "c": 3, "a x b": 2, "a x c": 3, "b x c": 6, "rest": 6}
+    assert found["degrees_of_freedom"].to_dict() == {
+        "a": 1, "b": 2, "c": 3, "a x b": 2, "a x c": 3, "b x c": 6, "residual": 6}
 
 
 def test_a_product_of_centred_factors_is_owed_to_their_pair_alone():
