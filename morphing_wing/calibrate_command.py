@@ -120,9 +120,8 @@ def of_each(name: str, given: Sequence[Any], n: int) -> list[Any]:
 def tell(found: Calibration, folder: pathlib.Path) -> None:
     """Print and save a calibration."""
     from morphing_wing.calibration.report import report
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
-    for part in report(found):
-        console().print(part, highlight=False, markup=False)
+    show(report(found))
     found.save(folder)
     typer.echo(f"\n{found.toml}\nresults are in {folder}")

@@ -30,7 +30,7 @@ def run_figure6(
     from morphing_wing.figure6.cases import read_cases, write_cases
     from morphing_wing.figure6.report import report
     from morphing_wing.figure6.study import figure6
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     comm = MPI.COMM_WORLD
     before = read_cases(comm, folder) if resume else {}
@@ -46,10 +46,7 @@ def run_figure6(
                     lambda study: study.save(folder, picture=False), before)
     study.save(folder)
     if comm.rank == 0:
-        for part in report(study):
-            if not isinstance(part, str):
-                console().print()
-            console().print(part, highlight=False, markup=False)
+        show(report(study))
     return ended(study.converged, folder)
 
 

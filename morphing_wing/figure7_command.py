@@ -81,11 +81,10 @@ def saved(folder: pathlib.Path, study: Figure7, curve: Curve, path: Path) -> Non
 def say(study: Figure7) -> None:
     """Print the facts as tables; on rank 0, as everything that a command prints."""
     from morphing_wing.figure7_report import report
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     if study.comm.rank == 0:
-        for table in report(study.facts()):
-            console().print("", table)
+        show(report(study.facts()))
 
 
 def mapped(

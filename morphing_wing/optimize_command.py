@@ -72,7 +72,7 @@ def searched(
     """Search, print and save; what is done is written after each design."""
     from morphing_wing.optimization import optimum as study
     from morphing_wing.optimization.report import in_a_line, report
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     numbers: dict[str, int] = {}
     latest: list[study.Optimum] = []
@@ -96,9 +96,7 @@ def searched(
         raise
     on_root(comm, lambda: optimum.save(folder))
     if comm.rank == 0:
-        for part in report(optimum):
-            console().print()
-            console().print(part, highlight=False, markup=False)
+        show(report(optimum))
     typer.echo(f"results are in {folder}; {folder / 'design.toml'} is a scene"
                if optimum.best() else f"results are in {folder}")
     return DONE if optimum.converged else STOPPED

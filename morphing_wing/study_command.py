@@ -159,10 +159,9 @@ def computed(
 def ended(result: StudyResult, folder: pathlib.Path) -> int:
     """Save and print what was found, and return the exit status."""
     from morphing_wing.studies.report import report
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     result.save(folder)
-    for part in report(result):
-        console().print(part, highlight=False, markup=False)
+    show(report(result))
     typer.echo(f"results are in {folder}")
     return STOPPED if len(result.bad) == len(result.table) else DONE

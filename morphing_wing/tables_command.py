@@ -22,15 +22,13 @@ def run_table(name: str, fidelities: tuple[str, ...], folder: pathlib.Path) -> i
     from morphing_wing.table2 import table2
     from morphing_wing.table3 import table3
     from morphing_wing.table_report import report
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     study = {"table2": table2, "table3": table3}[name](
         **({"fidelities": fidelities} if fidelities else {}), comm=MPI.COMM_WORLD,
         told=told, done=lambda study: study.save(folder))
     if study.comm.rank == 0:
-        for part in report(study):
-            console().print()
-            console().print(part, highlight=False, markup=False)
+        show(report(study))
     return ended(study.converged, folder)
 
 
@@ -39,12 +37,12 @@ def run_figure5(fidelities: tuple[str, ...], points: int, folder: pathlib.Path) 
     from morphing_wing.figure5 import figure5
     from morphing_wing.figure5_report import report
     from morphing_wing.progress import announced
-    from morphing_wing.terminal_tables import console
+    from morphing_wing.terminal_tables import show
 
     study = figure5(fidelities or None, points, MPI.COMM_WORLD, announced,
                     lambda study: study.save(folder))
     if study.comm.rank == 0:
-        console().print("", report(study.facts()))
+        show([report(study.facts())])
     return ended(study.converged, folder)
 
 

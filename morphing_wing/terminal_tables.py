@@ -8,12 +8,21 @@ from collections.abc import Iterable, Sequence
 from rich.console import Console
 from rich.table import Table
 
-__all__ = ["console", "text_table"]
+__all__ = ["console", "show", "text_table"]
 
 
 def console() -> Console:
     """Return a console on standard output, 132 columns wide where that has no width of its own."""
     return Console(width=shutil.get_terminal_size((132, 40)).columns)
+
+
+def show(parts: Iterable[Table | str]) -> None:
+    """Print tables, a blank line above each, and sentences as they are. Call on one rank."""
+    to = console()
+    for part in parts:
+        if not isinstance(part, str):
+            to.print()
+        to.print(part, highlight=False, markup=False)
 
 
 def text_table(
