@@ -49,7 +49,7 @@ def test_grid_is_the_same_as_on_one_rank(make, options):
     np.testing.assert_array_equal(many.cells, one.cells)
     np.testing.assert_array_equal(many.celltypes, one.celltypes)
     np.testing.assert_allclose(many.points, one.points, atol=1e-14)
-    for name in ("displacement", "stretch"):
+    for name in {"displacement", "rotation", "stretch"} & set(one.point_data):
         np.testing.assert_allclose(many.point_data[name], one.point_data[name], atol=1e-13)
 
 
