@@ -207,6 +207,8 @@ def form(expression: Any) -> Any:
 
 @contextmanager
 def _compiling(comm: MPI.Comm) -> Iterator[None]:
+    # Rank 0 must not hold the cache while it waits for others that wait for the cache elsewhere.
+    comm.Barrier()
     with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
         yield
 
