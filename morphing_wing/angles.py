@@ -28,8 +28,11 @@ def deflection_line(displacement: np.ndarray, lever: np.ndarray) -> float:
 
 def turned_x(theta: np.ndarray) -> np.ndarray:
     """Return where the rotation vector ``theta`` turns the direction x, shape (3,)."""
-    angle = float(np.linalg.norm(theta))
-    a = np.sinc(angle / np.pi)
-    b = 0.5 * np.sinc(angle / (2.0 * np.pi)) ** 2
-    x = np.array([1.0, 0.0, 0.0])
-    return x + a * np.cross(theta, x) + b * np.cross(theta, np.cross(theta, x))
+    return turned(theta, np.array([1.0, 0.0, 0.0]))
+
+
+def turned(theta: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Return where rotation vectors turn vectors, both (..., 3)."""
+    angle = np.linalg.norm(theta, axis=-1, keepdims=True)
+    a, b = np.sinc(angle / np.pi), 0.5 * np.sinc(angle / (2.0 * np.pi)) ** 2
+    return v + a * np.cross(theta, v) + b * np.cross(theta, np.cross(theta, v))

@@ -50,7 +50,11 @@ class BarMesh:
         The same function and its mesh: translation and rotation vector of the ends, see `at_ends`.
     iterate
         The iterates that a tangent correction needs.
+    carried
+        The frame that is drawn where the bars are axes alone; None: they are bars.
     """
+
+    carried: Frame | None = None
 
     def __init__(
         self, comm: MPI.Comm, frame: Frame, material: Elastic, degree: int, clamped: bool = False,

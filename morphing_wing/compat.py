@@ -207,6 +207,8 @@ def form(expression: Any) -> Any:
 
 @contextmanager
 def _compiling(comm: MPI.Comm) -> Iterator[None]:
+    # All are to be here before rank 0 locks the cache: who still builds alone needs it too.
+    comm.Barrier()
     with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
         yield
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from morphing_wing.geometry.frame import Frame
 
-__all__ = ["Cut", "Drawing", "bar_radii", "default_drawing"]
+__all__ = ["Cut", "Drawing", "bar_radii", "default_drawing", "drawn_bars"]
 
 # From where each kind of scene is seen (x chordwise, y up, z along the span): spar and wing from
 # the front with the root at the left and the tip at the right, the rib from the tip's side.
@@ -52,6 +52,9 @@ class Drawing:
         or in the middle.
     radius
         Radius in mm of each function on intervals by name: one number, or one for each cell.
+    bars
+        Of a function that is the motion of axes alone, the frame that they carry: drawn in their
+        place, see `morphing_wing.carried_bars`; ``radius`` is then its bars'.
     cables
         Deformed polylines of the cables, each of shape (n, 3) in mm; needed on rank 0 only.
     colour_by
@@ -62,6 +65,7 @@ class Drawing:
     mirror_x: float | None = None
     cuts: Sequence[Cut] | None = None
     radius: Mapping[str, float | np.ndarray] = field(default_factory=dict)
+    bars: Mapping[str, Frame] = field(default_factory=dict)
     cables: Sequence[np.ndarray] = ()
     colour_by: str = "stretch"
 
@@ -72,6 +76,12 @@ def default_drawing(scene: Any) -> Drawing:
     return Drawing(eye=_EYES.get(scene.name, _EYES["spar"]), mirror_x=mirror)
 
 
+def drawn_bars(name: str, frame: Frame, carried: Frame | None) -> dict[str, Any]:
+    """Return ``radius`` and ``bars`` of a `Drawing` of a frame, or of one that axes carry."""
+    return {"radius": {name: bar_radii(carried or frame)},
+            "bars": {name: carried} if carried else {}}
+
+
 def bar_radii(frame: Frame) -> np.ndarray:
     """Return each bar's radius in mm for `Drawing.radius`: the round bar of the same section area.
 
@@ -80,4 +90,4 @@ def bar_radii(frame: Frame) -> np.ndarray:
     """
     radius = np.sqrt(frame.areas() / np.pi)
     bars = np.isin(frame.kinds, [i for i, name in enumerate(frame.names) if name in _BARS])
-    return np.where(bars, radius, radius[bars].min()) if bars.any() else radius
+    return np.where(bars, radius, radius[bars].min())

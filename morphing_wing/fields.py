@@ -94,8 +94,9 @@ class FieldGrid:
         Returns
         -------
         pyvista.UnstructuredGrid on rank 0, None elsewhere, with point arrays ``displacement``
-        (mm, shape (n_points, 3)) and ``stretch`` (largest principal stretch, mean over the cells
-        that meet in the point), and cell array ``cell`` (its original number).
+        (mm, shape (n_points, 3)), of functions with six components ``rotation`` (vector, radians),
+        and ``stretch`` (largest principal stretch, mean over the cells that meet in the point), and
+        cell array ``cell`` (its original number).
         """
         values = np.asarray(self.function.x.array)[self._entries[: self._n_owned]]
         parts = self._comm.gather((self._global, values))  # owned values: ghosts may be stale
@@ -103,14 +104,17 @@ class FieldGrid:
             return None
         import pyvista
 
-        displacement = np.zeros_like(self._points)
+        motion = np.zeros((len(self._points), self._entries.shape[1]))
         for nodes, local in parts:
             if len(nodes):
-                displacement[self._point_of(nodes)] = local
+                motion[self._point_of(nodes)] = local
+        displacement = motion[:, :3]
         stretches = nodal_stretches(self.cell_name, self._nodes, self._points, displacement)
         topology = np.insert(self._vtk, 0, self._vtk.shape[1], axis=1)
         grid = pyvista.UnstructuredGrid(topology.ravel(), self._types, self._points)
         grid.point_data["displacement"] = displacement
+        if motion.shape[1] == 6:
+            grid.point_data["rotation"] = motion[:, 3:]
         grid.point_data["stretch"], grid.point_data["second_stretch"] = stretches.T
         grid.cell_data["cell"] = self.cells
         return grid
@@ -119,7 +123,7 @@ class FieldGrid:
 def _displacement_space(function: Any) -> tuple[Any, np.ndarray]:
     """Return the displacement's own space and, node by node, its entries in the function's array.
 
-    The second has shape (n_local_nodes, 3).
+    The second has shape (n_local_nodes, 3), with rotations (n_local_nodes, 6).
     """
     space = function.function_space
     parts = space.num_sub_spaces
@@ -132,7 +136,7 @@ def _displacement_space(function: Any) -> tuple[Any, np.ndarray]:
     n_nodes, size = index_map.size_local + index_map.num_ghosts, space.dofmap.bs
     if entries is None:
         entries = np.arange(n_nodes * size)
-    return space, entries.reshape(n_nodes, size)[:, :3]
+    return space, entries.reshape(n_nodes, size)[:, : 6 if size == 6 else 3]
 
 
 @contextmanager
@@ -169,6 +173,8 @@ def mode_grids(modes: Modes, i: int) -> dict[str, pyvista.UnstructuredGrid | Non
     for name, grid in grids.items():
         if grid is not None:
             grid.point_data["mode"] = moved[name].point_data["displacement"]
+            if "rotation" in grid.point_data:
+                grid.point_data["mode_rotation"] = moved[name].point_data["rotation"]
     return grids
 
 

@@ -15,7 +15,6 @@ from .analytic_rib import rib_compliance
 from .analytic_spar import SparFormula
 from .arc_line import arc_line
 from .errors import InputError, plain
-from .fieldless import Fieldless
 from .geometry.rib import RibGeometry
 from .geometry.spar import SparGeometry
 from .ladder import AUTO, pick
@@ -29,20 +28,33 @@ from .stepping import REACHED
 from .targets import load_targets, load_words
 
 
-class Formula(Fieldless):
-    """What scenes without a mesh share."""
+class Formula:
+    """What scenes without a mesh share: nothing to draw, to vibrate, to resume."""
 
     dofs = 0
+    functions: Mapping[str, Any] = {}
+    fidelity: str
 
     def _set_up(self, asked: str, **left_out: Any) -> None:
+        self._asked = asked
         for name, value in left_out.items():
             if value is not None:
-                raise InputError(f"{name} = {value!r}: must be left out {super()._where}")
-        self._asked = asked
+                raise InputError(f"{name} = {value!r}: must be left out {self._where}")
 
     @property
     def _where(self) -> str:
-        return super()._where + (', which "auto" took' if self._asked == AUTO else "")
+        auto = ', which "auto" took' if self._asked == AUTO else ""
+        return f'where fidelity is "{self.fidelity}"{auto}'
+
+    @property
+    def system(self) -> NoReturn:
+        """There is none."""
+        raise InputError(f"fidelity = {self.fidelity!r}: must be another one here, a formula "
+                         "without a field of displacements")
+
+    def linearise(self) -> NoReturn:
+        """Refuse: there is no tangent of a mesh."""
+        return self.system
 
     def fill(self, *_: Any, **__: Any) -> NoReturn:
         """Refuse: there are no chambers."""
@@ -56,7 +68,9 @@ class Formula(Fieldless):
         resume: str | os.PathLike | None,
     ) -> Path:
         """Return the path of measures and stored energies of each load, up to a reason to stop."""
-        self._check_resume(resume)
+        if resume is not None:
+            raise InputError(f"resume = {os.fspath(resume)!r}: must be left out {self._where}; it "
+                             "leaves nothing to resume")
         begin, states, reason = time.perf_counter(), [], REACHED
         for load in targets:
             clock = time.perf_counter()

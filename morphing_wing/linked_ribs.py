@@ -77,6 +77,7 @@ class LinkedRibs(BarMesh):
         one, parities = link_frame(rib), (MIRRORED,) if planar else (MIRRORED, REVERSED)
         super().__init__(comm, join([one.placed(root) for root in roots]), material, 1, clamped,
                          held=DEFORMATIONS[REVERSED] if planar else ())
+        self.carried = join([rib.frame().placed(root) for root in roots])
         pieces = [condensed(comm, rib, material.nu, around, prefix, p) for p in parities]
         self.mesh_dofs = pieces[0].dofs
         # K = A A^T of each, so that the energy is a sum of squares as mixed points want it.

@@ -84,6 +84,8 @@ def render_mode(modes: Modes, i: int, file: str | os.PathLike) -> pathlib.Path:
         size = np.ptp(np.concatenate([grid.points for grid in grids.values()]), axis=0).max()
         for grid in grids.values():
             grid.point_data["displacement"] += MODE_PART * size * grid.point_data["mode"]
+            if "rotation" in grid.point_data:
+                grid.point_data["rotation"] += MODE_PART * size * grid.point_data["mode_rotation"]
         _draw_state(grids, replace(drawing, colour_by="mode"), title, state.contact, file)
 
     on_root(scene.comm, draw)

@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 from . import compat
 from .angles import deflection_line, rotation_about_z, turned_x
-from .drawing import Drawing, bar_radii, default_drawing
+from .drawing import Drawing, default_drawing, drawn_bars
 from .errors import is_count, require
 from .forms.beam import displacement
 from .forms.cable import cable_potential
@@ -186,7 +186,8 @@ class Rib(Scene):
 
     def drawing(self, state: State) -> Drawing:
         """Return how to draw the present state: bars as tubes."""
-        return replace(default_drawing(self), radius={"ribs": bar_radii(self.ribs.frame)})
+        return replace(default_drawing(self),
+                       **drawn_bars("ribs", self.ribs.frame, self.ribs.carried))
 
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from morphing_wing.carried_bars import carried
 from morphing_wing.drawing import Cut, Drawing
 from morphing_wing.mirror import mirrored
 from morphing_wing.renderer import choose_renderer
@@ -37,7 +38,8 @@ class View:
     def __init__(self, grids: Mapping[str, pyvista.UnstructuredGrid], drawing: Drawing) -> None:
         self.drawing = drawing
         self.solids = [g for g in grids.values() if _dimension(g) > 1]
-        self.lines = {name: g for name, g in grids.items() if _dimension(g) == 1}
+        self.lines = {name: carried(g, drawing.bars[name]) if name in drawing.bars else g
+                      for name, g in grids.items() if _dimension(g) == 1}
         if drawing.mirror_x is not None:
             self.solids = [mirrored(grid, drawing.mirror_x) for grid in self.solids]
         self._all = (*self.solids, *self.lines.values())

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .bar_mesh import BarMesh
-from .drawing import Cut, Drawing, bar_radii, default_drawing
+from .drawing import Cut, Drawing, default_drawing, drawn_bars
 
 if TYPE_CHECKING:
     from .path import State
@@ -19,10 +19,10 @@ __all__ = ["wing_drawing"]
 
 def wing_drawing(scene: Wing, state: State) -> Drawing:
     """Return how to draw a wing that stands in a state. Collective."""
-    wing, cuts, cables, radius = scene.geometry, [Cut("x", 0.25 * scene.geometry.chord)], [], {}
+    wing, cuts, cables, bars = scene.geometry, [Cut("x", 0.25 * scene.geometry.chord)], [], {}
     if scene.ribs is not None:
         if isinstance(scene.ribs, BarMesh):
-            radius = {"ribs": bar_radii(scene.ribs.frame)}
+            bars = drawn_bars("ribs", scene.ribs.frame, scene.ribs.carried)
         roots = wing.rib_roots()
         tails = roots + np.array([wing.rib.length, 0.0, 0.0])
         cuts.append(Cut("z", roots[len(roots) // 2, 2] + 0.5 * wing.cavity_length + 3.0))
@@ -30,4 +30,4 @@ def wing_drawing(scene: Wing, state: State) -> Drawing:
             start = tail + scene.ribs.end_values("tail", i)[:3]
             way = tail + np.array(wing.cable_guide) - start
             cables.append(np.array([start, start + 40.0 * way / np.linalg.norm(way)]))
-    return replace(default_drawing(scene), cuts=cuts, radius=radius, cables=cables)
+    return replace(default_drawing(scene), cuts=cuts, cables=cables, **bars)

@@ -159,7 +159,7 @@ class Case:
             return steps[int(rest[1])] if len(rest) > 1 else steps[-1]
         if head in ("elastomer", "resin"):
             owner = self.file.materials.get(head, self.file.materials.get("material"))
-        elif head in ("adhesive", "contact"):
+        elif head in ("adhesive", "contact", "rib_model"):
             owner = self.file.materials.get(head)
         else:
             owner = getattr(self.file, head)

@@ -74,6 +74,9 @@ OUTPUTS: dict[str, dict[str, str]] = {
 }
 """Of each scene, what can be asked, and what that is."""
 
+_RIB_MODELS = {"reference": "cell"}
+"""Of `morphing_wing.wing.FIDELITIES`, which loads DOLFINx, those whose ribs are chains of cells."""
+
 _BOX = ("length", "height", "width", "depth")
 _BY_LIMITS = {*OF_RUBBER, *OF_RESIN}
 _BY_FORMULA = {"largest_stretch", "material_stability"}
@@ -110,6 +113,19 @@ def check_outputs(file: SceneFile, outputs: Sequence[str]) -> None:
         if file.fidelity == "instant" and name in by_field:
             raise InputError(f"output {name!r}: must be left out where fidelity is 'instant', a "
                              "formula has no field of displacements")
+        if name in OF_RESIN and (key := _cells_by(file)) is not None:
+            raise InputError(f"output {name!r}: must be left out where {key}, of a chain of cells "
+                             "the axis alone is known")
+
+
+def _cells_by(file: SceneFile) -> str | None:
+    """Return what says that ribs are chains of condensed cells; None: they are not."""
+    given = file.materials.get("rib_model")
+    if file.scene == "rib" and file.fidelity == "cell":
+        return "fidelity is 'cell'"
+    if file.scene == "wing" and (given or _RIB_MODELS.get(file.fidelity)) == "cell":
+        return "rib_model is 'cell'" if given else f"fidelity is {file.fidelity!r}"
+    return None
 
 
 def needs_limits(file: SceneFile, outputs: Sequence[str]) -> bool:

@@ -120,6 +120,12 @@ BROKEN = {
                 variables='geometry.pivot_length = { low = "5 mm", high = "6 mm" }',
                 constraints='rib_stress_MPa = { max = "35 MPa" }'),
         "output 'rib_stress_MPa': must be left out where fidelity is 'instant'"),
+    "limit that a rung in the middle does not tell": (
+        problem(scene='"rib-validation"', maximize='"chord_angle_deg"', base="",
+                rungs='["instant", "cell", "draft"]',
+                variables='geometry.pivot_length = { low = "5 mm", high = "6 mm" }',
+                constraints='rib_stress_MPa = { max = "35 MPa" }'),
+        "output 'rib_stress_MPa': must be left out where fidelity is 'cell'"),
 }
 
 

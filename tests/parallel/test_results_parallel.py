@@ -2,6 +2,7 @@ import io
 import json
 import pathlib
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -49,7 +50,7 @@ def test_grid_is_the_same_as_on_one_rank(make, options):
     np.testing.assert_array_equal(many.cells, one.cells)
     np.testing.assert_array_equal(many.celltypes, one.celltypes)
     np.testing.assert_allclose(many.points, one.points, atol=1e-14)
-    for name in ("displacement", "stretch"):
+    for name in {"displacement", "rotation", "stretch"} & set(one.point_data):
         np.testing.assert_allclose(many.point_data[name], one.point_data[name], atol=1e-13)
 
 
@@ -97,3 +98,10 @@ def test_progress_prints_on_rank_0_alone():
     for state in spar_path(n_cells=1, comm=COMM):
         progress(state)
     assert len(out.getvalue().splitlines()) == (5 if COMM.rank == 0 else 0)
+
+
+def test_ranks_that_still_make_meshes_of_their_own_are_waited_for():
+    if COMM.rank != 0:
+        time.sleep(0.3)
+        box(MPI.COMM_SELF)
+    assert box(COMM).function_space.mesh.comm.size == COMM.size

@@ -39,13 +39,14 @@ def test_nodes_stand_where_vtk_expects_them(degree):
         np.testing.assert_allclose(points, low + at * size, atol=1e-12)
 
 
-def test_lines_keep_their_order_and_rotations_stay_out():
+def test_lines_keep_their_order_and_rotations_stand_apart():
     f = line(rotations=True)
     f.interpolate(turned(motion))
     grid = FieldGrid(f).grid()
     assert set(grid.celltypes) == {pyvista.CellType.LAGRANGE_CURVE}
     assert grid.n_points == 9
     np.testing.assert_allclose(grid.point_data["displacement"], motion(grid.points.T).T, atol=1e-12)
+    assert (grid.point_data["rotation"] == 1e6).all()
 
 
 def test_mixed_displacement_and_pressure_give_the_displacement():

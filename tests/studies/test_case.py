@@ -15,7 +15,10 @@ from morphing_wing.geometry.wing_mesh import wing_mesh
 from morphing_wing.mass import mass
 from morphing_wing.scene_dimensions import as_value, column_of, kind_of, unit_of
 from morphing_wing.scene_file import parse_scene
+from morphing_wing.studies import case_outputs
 from morphing_wing.studies.case import Case, run_case
+from morphing_wing.studies.case_outputs import check_outputs
+from morphing_wing.wing import FIDELITIES
 
 pytestmark = pytest.mark.quick
 
@@ -129,6 +132,29 @@ def test_what_cannot_be_computed_is_told_and_not_raised():
     assert "output 'span_angle': must be one of span_angle_deg, " in unknown["refused"]
     fieldless = run_case(Case.of("rib-validation", {"fidelity": "instant"}), ["rib_stress_MPa"])
     assert "must be left out where fidelity is 'instant'" in fieldless["refused"]
+
+
+@pytest.mark.parametrize("scene, changes, key", [
+    ("rib-validation", {"fidelity": "cell"}, "fidelity is 'cell'"),
+    ("wing-no-skin", {"rib_model": "cell"}, "rib_model is 'cell'"),
+    ("wing-no-skin", {"fidelity": "reference"}, "fidelity is 'reference'"),
+])
+def test_chains_of_cells_are_asked_for_no_stress_before_they_are_condensed(scene, changes, key):
+    with pytest.raises(InputError, match=f"'rib_stress_MPa': must be left out where {key}, of a"):
+        check_outputs(Case.of(scene, changes).file, ["rib_stress_MPa"])
+    frame = changes | ({"rib_model": "frame"} if scene.startswith("wing") else
+                       {"fidelity": "draft"})
+    check_outputs(Case.of(scene, frame).file, ["rib_stress_MPa"])
+
+
+def test_the_rungs_of_wings_with_cell_ribs_are_known_without_building_any():
+    assert case_outputs._RIB_MODELS == {name: "cell" for name, rung in FIDELITIES.items()
+                                        if rung.rib_model == "cell"}
+
+
+def test_a_wings_rib_model_has_a_value():
+    assert Case.of("wing-no-skin", {"rib_model": "cell"}).value("rib_model") == "cell"
+    assert Case.of("wing-no-skin").value("rib_model") is None
 
 
 def test_mass_is_density_times_the_meshes_volume():
