@@ -77,8 +77,9 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
         the trailing edge against the horizontal, None: not reached or no such angle),
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
         angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere, or not measured),
-        and from which load on the skin touches something (``touching_from``), or passes through it for want of
-        contact forces (``contact_from``), and the state is unstable (``unstable_from``).
+        and from which load on the skin touches something (``touching_from``), or passes through it
+        for want of contact forces (``contact_from``), and the state is unstable
+        (``unstable_from``).
         ``fidelities``: the largest relative difference of the angle to that of the finest.
         ``skin``: angle without skin over angle with it.
     """
