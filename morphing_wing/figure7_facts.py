@@ -76,9 +76,10 @@ def facts(table: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
         by the face's rotation, ``line_reached_at`` by the deflection line, ``space_reached_at`` by
         the trailing edge against the horizontal, None: not reached or no such angle),
         the last load and angles, the coupling there (``coupling_deg`` and its ratio to the main
-        angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere), and from which
-        load on the skin touches something (``touching_from``), or passes through it for want of
-        contact forces (``contact_from``), and the state is unstable (``unstable_from``).
+        angle), where the ribs' resin yields (``resin_yields_at``, None: nowhere, or not measured),
+        and from which load on the skin touches something (``touching_from``), or passes through it
+        for want of contact forces (``contact_from``), and the state is unstable
+        (``unstable_from``).
         ``fidelities``: the largest relative difference of the angle to that of the finest.
         ``skin``: angle without skin over angle with it.
     """

@@ -153,6 +153,7 @@ class Newton:
         bury(self.system.comm)
         self._tolerance = max(self.relative_tolerance * reference_force, SMALLEST_FORCE)
         self._smallest = self._step = np.inf
+        self._taken = 0.0  # length of the last step
         self._fresh = False  # whether a tangent was assembled in this solve
         self.factor.begin()
         self.system.push(self._x)
@@ -162,7 +163,9 @@ class Newton:
         self.system.pull(self._x)
         reason = self._snes.getConvergedReason()
         iterations = self._snes.getIterationNumber()
-        self._near = self.reuses and reason > 0
+        # The factor is of the iterate before the last step: of another state where that was long.
+        short = self._taken <= 0.01 * (self._x.norm() + 1.0)
+        self._near = self.reuses and reason > 0 and short
         self._x.copy(self._found)
         if reason > 0 and (self.factor.amount > 0.0 or not self._fresh):
             # The last factor was of K + a M, which hides what K itself says of stability; or it is
@@ -232,6 +235,7 @@ class Newton:
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reason = PETSc.SNES.ConvergedReason
         x_norm, step, residual = norms
+        self._taken = step if iteration > 0 else 0.0
         if not np.isfinite(residual):
             return _NOT_A_NUMBER
         if residual <= self._tolerance:

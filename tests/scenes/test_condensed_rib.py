@@ -124,6 +124,12 @@ def test_angle_is_linear_in_the_moment_at_any_turn():
     assert found.negative_pivots == 0
 
 
+def test_a_step_from_a_bent_state_takes_no_more_iterations_than_one_from_rest():
+    path = rib(6).bend(torque=[12.0, 24.0])  # without a cut: no step between
+    rest = last(rib(6).bend(torque=24.0)).newton_iterations
+    assert [state.newton_iterations for state in path] == [rest, rest]
+
+
 def test_stored_energy_is_the_work_of_moment_and_cable():
     pulled = rib(4)
     state = last(pulled.bend(torque=[20.0, 40.0]))
