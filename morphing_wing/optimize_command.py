@@ -79,7 +79,7 @@ def searched(
 
     def told(row: dict[str, Any]) -> None:
         numbers[row["rung"]] = numbers.get(row["rung"], 0) + 1
-        typer.echo(in_a_line(problem.goal.output, numbers[row["rung"]], row))
+        typer.echo(in_a_line(problem, numbers[row["rung"]], row))
 
     def done(optimum: study.Optimum) -> None:
         latest[:] = [optimum]

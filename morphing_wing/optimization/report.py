@@ -10,17 +10,21 @@ from rich.table import Table
 from morphing_wing.terminal_tables import text_table
 
 from .optimum import Optimum, Row
+from .problem import Problem
 
 __all__ = ["in_a_line", "report"]
 
 
-def in_a_line(optimum_output: str, number: int, row: Row) -> str:
-    """Return a design that was computed as one line."""
-    found = row["refused"] or row["stopped"]
+def in_a_line(problem: Problem, number: int, row: Row) -> str:
+    """Return a design that was computed as one line, with the limits that its rung cannot tell."""
+    output, found = problem.goal.output, row["refused"] or row["stopped"]
     if not found:
         promised = "" if row["predicted"] is None else f" (promised {row['predicted']:.5g})"
-        found = (f"{optimum_output} {row[optimum_output]:.6g}{promised}, "
-                 + ("holds all limits" if row["feasible"] else "passes a limit"))
+        unknown = dict.fromkeys(c.output for c in problem.constraints if np.isnan(row[c.output]))
+        holds = f"holds the limits it knows, not {', '.join(unknown)}" if unknown else (
+            "holds all limits")
+        found = (f"{output} {row[output]:.6g}{promised}, "
+                 + (holds if row["feasible"] else "passes a limit"))
     return f"{row['rung']} {number}, {row['role']}: {found}, {row['seconds']:.1f} s"
 
 

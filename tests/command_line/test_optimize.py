@@ -50,6 +50,16 @@ def test_built_in_problems_are_listed_printed_and_whole(capsys):
         assert read_problem(name).rungs[0] == "instant"
 
 
+def test_a_limit_that_the_formula_does_not_know_is_not_said_to_hold(rib, capsys):
+    (rib / "rib.toml").write_text(RIB + 'rib_stress_MPa = { max = "35 MPa" }\n')
+    assert main(["optimize", "rib.toml"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    formula = [line for line in said if line.startswith("instant ")]
+    assert formula and all("holds the limits it knows, not rib_stress_MPa" in line
+                           for line in formula if "passes" not in line)
+    assert any(line.startswith("draft ") and "holds all limits" in line for line in said)
+
+
 def test_results_are_written_told_and_the_design_is_a_scene(rib, capsys):
     assert main(["optimize", "rib.toml"]) == 0
     said = capsys.readouterr().out
