@@ -72,7 +72,7 @@ def range_analysis(table: pd.DataFrame, factors: Sequence[str], response: str) -
         means = tests.mean()
         squares = float(np.sum(tests.size() * (means - values.mean()) ** 2))
         parts.append(pd.DataFrame({
-            "factor": factor, "level": [str(level) for level in means.index],
+            "factor": factor, "level": [_text(level) for level in means.index],
             "mean": means.to_numpy(), "range": float(np.ptp(means)), "sum_of_squares": squares,
             "share": squares / total if total > 0.0 else 0.0}))
     return pd.concat(parts, ignore_index=True)
@@ -82,3 +82,8 @@ def best_levels(levels: pd.DataFrame) -> dict[str, Any]:
     """Return of each factor the level of the largest mean; see `range_analysis`."""
     best = levels.loc[levels.groupby("factor", sort=False)["mean"].idxmax()]
     return dict(zip(best["factor"], best["level"], strict=True))
+
+
+def _text(level: Any) -> str:
+    # 1.98, not the 1.9800000000000002 of 2.2 less a tenth.
+    return str(float(f"{level:.12g}")) if isinstance(level, float) else str(level)

@@ -25,6 +25,11 @@ def test_means_ranges_and_squares_by_hand():
     assert best_levels(levels) == {"a": "high", "b": "2"}
 
 
+def test_levels_are_told_without_rounding_errors():
+    levels = range_analysis(TESTS.assign(a=[0.9 * 2.2, 0.9 * 2.2, 2.2, 2.2]), ["a", "b"], "y")
+    assert 0.9 * 2.2 != 1.98 and list(levels["level"]) == ["1.98", "2.2", "1", "2"]
+
+
 def test_squares_of_factors_without_interaction_make_up_all():
     added = TESTS.assign(y=[1.0, 4.0, 3.0, 6.0])
     levels = range_analysis(added, ["a", "b"], "y")
