@@ -71,7 +71,7 @@ def paper(
         bool, typer.Option("--map", help="fig7: pressure and cables together too: costs much.")
     ] = False,
     map_points: Annotated[
-        str, typer.Option(metavar="NxM", help="fig7: pressures times tensions of the map.")
+        str, typer.Option(metavar="NxM", help="fig7: pressures times tensions of --map.")
     ] = "4x4",
     out: Annotated[
         pathlib.Path | None,
@@ -114,11 +114,15 @@ def paper(
 
 
 def check_options(context: typer.Context, name: str) -> None:
-    """Refuse options that were given and belong to another figure."""
+    """Refuse options that were given and belong to another figure, or to a map not asked for."""
     for option in context.command.params:
         belongs = OF.get(option.name, ("fig7",))
         source = context.get_parameter_source(option.name)
-        if name not in belongs and source is not None and source.name == "COMMANDLINE":
+        if source is None or source.name != "COMMANDLINE":
+            continue
+        if option.name == "map_points" and name == "fig7" and not context.params["reachable"]:
+            raise InputError("--map-points: must be left out without --map")
+        if name not in belongs:
             raise InputError(f"{option.opts[0]}: must be left out of {name}, it is an option of "
                              f"{' and '.join(belongs)}")
 

@@ -128,6 +128,7 @@ def test_the_map_is_run_where_it_is_asked_for(asked, tmp_path):
     (["fig7", "--skin-root", "glued"], "skin_root = 'glued': must be 'clamped' or 'free'"),
     (["fig7", "--panel", "B-2"], "--panel = 'B-2': must be pressure, cables or both"),
     (["fig7", "--skin", "thick"], "--skin = 'thick': must be on, off or both"),
+    (["fig7", "--map-points", "3x2"], "--map-points: must be left out without --map"),
     (["fig7", "--map", "--map-points", "1x4"], "--map-points = '1x4': must be two numbers"),
     (["fig7", "--map", "--map-points", "four"], "--map-points = 'four': must be two numbers"),
     ([], "Missing argument"),
