@@ -76,7 +76,8 @@ def _named(columns: list[Column], text: DelimitedText, named: str, what: str) ->
         place = int(wanted) - 1
         return columns[place] if place < len(columns) else Column(place, "", None, None)
     listed = ", ".join(f"'{column.name}'" for column in columns if column.name)
-    raise InputError(f"{what} = {named!r}: must be one of {listed}" * bool(listed)
+    raise InputError(f"{what} = {named!r}: must be one of {listed}, or a number from 1 to {width}"
+                     * bool(listed)
                      or f"{what} = {named!r}: must be a number from 1 to {width}, the file has no "
                         "header")
 

@@ -68,7 +68,8 @@ class Design:
         require(isinstance(seed, int) and seed >= 0, "design.seed", seed, "", "a whole number, 0 "
                 "or more")
         if "points" in belongs:
-            require(is_count(self.points), "design.points", self.points, "", "a whole number")
+            require(is_count(self.points), "design.points", self.points, "", "a whole number of at "
+                    "least 1")
             if self.kind == "sobol":
                 power = self.points >= 2 and math.log2(self.points).is_integer()
                 require(power, "design.points", self.points, "", "a power of two, such as 256")
