@@ -99,7 +99,7 @@ def scatter(result: StudyResult, folder: pathlib.Path) -> pathlib.Path | None:
             axes.set_title(f"rank correlation {rank:+.2f}", fontsize=9.5,
                            color="#111" if abs(rank) > 0.3 else _GREY)
 
-    return _panels(result, folder / "scatter.png", panel, f"{len(good)} cases")
+    return _panels(result, folder / "scatter.png", panel, f"{len(good)} cases; grey: 0.3 or less")
 
 
 def one_at_a_time(result: StudyResult, folder: pathlib.Path) -> pathlib.Path | None:
@@ -138,6 +138,7 @@ def variance_shares(result: StudyResult, folder: pathlib.Path) -> pathlib.Path |
                       va="center", fontsize=9.5)
         axes.set_yticks(y, [_source(source) for source in found["source"]])
         axes.set_xlim(0.0, max(1.75 * shares.max(), 1.0))
+        axes.set_xticks(range(0, 101, 20) if shares.max() > 50.0 else axes.get_xticks())
         axes.set_xlabel("share of all squares, %")
 
     return _bars(result, "variance", folder / "variance.png", panel)
