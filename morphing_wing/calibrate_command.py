@@ -118,10 +118,10 @@ def of_each(name: str, given: Sequence[Any], n: int) -> list[Any]:
 
 
 def tell(found: Calibration, folder: pathlib.Path) -> None:
-    """Print and save a calibration."""
+    """Save and print a calibration: what is written stays where the output's reader ends early."""
     from morphing_wing.calibration.report import report
     from morphing_wing.terminal_tables import show
 
-    show(report(found))
     found.save(folder)
+    show(report(found))
     typer.echo(f"\n{found.toml}\nresults are in {folder}")

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from morphing_wing.calibration import Calibration
+from morphing_wing.calibrate_command import tell
+from morphing_wing.calibration import Calibration, calibrate
 from morphing_wing.calibration.laws import YeohLaw
 from morphing_wing.cli import main
 from morphing_wing.scene_file import parse_scene
@@ -138,3 +139,13 @@ def test_help_has_examples(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "morphing-wing calibrate dragon_skin_30 --max-stretch 4" in said
     assert main(["--help"]) == 0 and "calibrate" in capsys.readouterr().out
+
+
+def test_results_are_written_before_anything_is_printed(no_picture, tmp_path, monkeypatch):
+    def closed(_):
+        raise BrokenPipeError
+
+    monkeypatch.setattr("morphing_wing.terminal_tables.show", closed)
+    with pytest.raises(BrokenPipeError):
+        tell(calibrate("dragon_skin_30", max_stretch=2), tmp_path / "out")
+    assert (tmp_path / "out" / "elastomer.toml").exists()
