@@ -59,7 +59,7 @@ class Progress:
             self._print(_row("step", [*headings, "iterations", "energy N mm", "neg. piv.", "s"]),
                         "bold")
         found = state.measures | state.load  # filled chambers' pressures are measured
-        values = [f"{found[c] * _LOADS[c][0]:.5g}" if c in _LOADS else f"{found[c]:.3f}"
+        values = [f"{found[c] * _LOADS[c][0]:.5g}" if c in _LOADS else f"{found[c]:z.3f}"
                   for c in columns]
         values += [f"{state.newton_iterations}", f"{state.energy_Nmm:.5g}",
                    f"{state.negative_pivots}", f"{state.step_seconds:.1f}"]

@@ -32,6 +32,11 @@ def test_columns_stand_under_their_headings():
     assert len(lines[0]) == len(lines[1])
 
 
+def test_zero_has_no_sign():
+    resting = State({"torque_Nmm": 0.0}, {"chord_angle_deg": -1e-9}, 0, 0.0, 0.0, 0, 0.1, True)
+    assert printed(resting)[1].split()[:3] == ["1", "0", "0.000"]
+
+
 def test_contact_is_told():
     assert printed(state(contact=1.0))[1].endswith("skin passes through itself or a rib")
 
