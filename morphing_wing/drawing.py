@@ -59,6 +59,8 @@ class Drawing:
         Deformed polylines of the cables, each of shape (n, 3) in mm; needed on rank 0 only.
     colour_by
         ``"stretch"``, ``"displacement"`` or ``"mode"``; solids are coloured by it.
+    what
+        What is seen without a cut, in words.
     """
 
     eye: tuple[float, float, float] = _EYES["spar"]
@@ -68,6 +70,7 @@ class Drawing:
     bars: Mapping[str, Frame] = field(default_factory=dict)
     cables: Sequence[np.ndarray] = ()
     colour_by: str = "stretch"
+    what: str = "whole"
 
 
 def default_drawing(scene: Any) -> Drawing:

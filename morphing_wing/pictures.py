@@ -155,7 +155,7 @@ def _draw_state(
         for cut, box in zip(cuts, _page(view, cuts), strict=True):
             low, high = view.extent(cut)
             image = view.image(_inside(box), _scale(high - low, box), colours, cut)
-            _place(figure, image, box, _note(cut), "#555")
+            _place(figure, image, box, _note(cut, drawing.what), "#555")
         _colour_bar(figure, view, colours)
         write_whole(file, lambda name: figure.savefig(name, format="png"))
 
@@ -177,9 +177,9 @@ def _draw_strip(drawn: list, scene: Any, file: str | os.PathLike) -> None:
         write_whole(file, lambda name: figure.savefig(name, format="png"))
 
 
-def _note(cut: Cut | None) -> str:
+def _note(cut: Cut | None, what: str) -> str:
     if cut is None:
-        return "whole, undeformed in grey"
+        return f"{what}, undeformed in grey"
     along = "along" if cut.axis == "x" else "across"
     return f"cut {along} the span at {cut.axis} = {cut.level:.4g} mm"
 

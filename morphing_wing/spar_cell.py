@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from mpi4py import MPI
 
 from .angles import deflection_line
 from .chambers import ROWS
+from .drawing import Drawing, default_drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
 from .errors import InputError
@@ -19,6 +21,9 @@ from .spar import Spar
 from .spar_rungs import CELL, fitted, pick_of
 from .system import EquilibriumSystem
 from .turning_plane import TurningPlane
+
+if TYPE_CHECKING:
+    from .path import State
 
 
 class SparCell(Spar):
@@ -82,6 +87,10 @@ class SparCell(Spar):
     def description(self) -> dict[str, Any]:
         """Return all parameters, for `summary.json`."""
         return super().description() | {"half_model": True, "model": "a quarter of one cell"}
+
+    def drawing(self, state: State) -> Drawing:
+        """Return how to draw the present state: what is seen is no whole spar."""
+        return replace(default_drawing(self), what="a quarter of one cell")
 
     # -- what the scene is made of ------------------------------------------------------------
 

@@ -7,6 +7,7 @@ import pytest
 from mpi4py import MPI
 
 from morphing_wing import compat
+from morphing_wing.drawing import default_drawing
 from morphing_wing.errors import InputError
 from morphing_wing.geometry.spar import SparGeometry, SparMeshing
 from morphing_wing.modes import modes
@@ -28,6 +29,13 @@ def angle(path):
 def test_fidelity_cell_makes_one():
     assert type(cell()) is SparCell
     assert cell().dofs < 0.15 * Spar(SparGeometry.validation(4), **MESH).dofs
+
+
+def test_its_picture_says_that_it_is_no_whole_spar():
+    scene = cell()
+    state = scene.inflate(upper=0.01)[-1]
+    assert scene.drawing(state).what == "a quarter of one cell"
+    assert default_drawing(scene).what == "whole"
 
 
 def test_one_more_chamber_of_a_whole_spar_turns_as_the_cell():
