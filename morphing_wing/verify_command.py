@@ -25,7 +25,13 @@ def verify(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Only those that take seconds.")] = False,
 ) -> int:
-    """Solve problems with known answers; exit 0 only if all of them hold."""
+    """Solve problems with known answers; exit 0 only if all of them hold.
+
+    Quick ones: patch, homogeneous, elastica, balance, land. Others: rotation, convergence, walls,
+    membranes, cook.
+
+    Example: morphing-wing verify patch walls
+    """
     from morphing_wing.verification import PROBLEMS
 
     for name in names or ():

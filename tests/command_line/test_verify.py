@@ -4,7 +4,8 @@ import pytest
 
 from morphing_wing import verification
 from morphing_wing.cli import main
-from morphing_wing.verification import Check, NoEquilibriumError, Problem
+from morphing_wing.verification import PROBLEMS, Check, NoEquilibriumError, Problem
+from morphing_wing.verify_command import verify
 
 pytestmark = pytest.mark.quick
 
@@ -60,3 +61,10 @@ def test_a_problem_without_a_solution_says_why(capsys):
 def test_unknown_problems_are_refused(arguments, sentence, capsys):
     assert main(["verify", *arguments]) == 2
     assert capsys.readouterr().err.strip() == f"morphing-wing: {sentence}"
+
+
+def test_help_names_all_problems_the_quick_ones_first():
+    quick, others = (part.split(".")[0].replace("\n", " ").split(",")
+                     for part in verify.__doc__.partition("Quick ones:")[2].split("Others:"))
+    assert {name.strip() for name in quick} == {p.name for p in PROBLEMS.values() if p.quick}
+    assert {name.strip() for name in others} == {p.name for p in PROBLEMS.values() if not p.quick}
