@@ -137,8 +137,9 @@ def variance_shares(result: StudyResult, folder: pathlib.Path) -> pathlib.Path |
             axes.text(share, place, text + (f", {_chance(p)}" if np.isfinite(p) else ""),
                       va="center", fontsize=9.5)
         axes.set_yticks(y, [_source(source) for source in found["source"]])
+        if shares.max() > 50.0:  # the room for texts beyond 100 % has no ticks
+            axes.set_xticks(range(0, 101, 20))
         axes.set_xlim(0.0, max(1.75 * shares.max(), 1.0))
-        axes.set_xticks(range(0, 101, 20) if shares.max() > 50.0 else axes.get_xticks())
         axes.set_xlabel("share of all squares, %")
 
     return _bars(result, "variance", folder / "variance.png", panel)
