@@ -97,8 +97,20 @@ def _history(axes: Axes, optimum: Optimum) -> None:
         axes.axhline(goal.target, color="#111", linewidth=1.0, linestyle="--", label="target")
     axes.set(xlabel="evaluation", ylabel=_word(goal.output), xlim=(0.5, len(rows) + 0.5))
     axes.xaxis.get_major_locator().set_params(integer=True)
+    unknown = [f"{rung} does not know {_quantities(optimum, rung)}"
+               for rung in dict.fromkeys(row["rung"] for row in rows) if _quantities(optimum, rung)]
     axes.legend(fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3,
-                columnspacing=1.4, handletextpad=0.5)
+                columnspacing=1.4, handletextpad=0.5, title_fontsize=9,
+                title=f"limits: {'; '.join(unknown)}" if unknown else None)
+
+
+def _quantities(optimum: Optimum, rung: str) -> str:
+    """Return what a rung tells nothing of though it is limited, in words."""
+    if rung not in optimum.limits:  # not even its start was solved
+        return ""
+    known = {c.output for c in optimum.limits[rung]}
+    names = dict.fromkeys(c.output for c in optimum.problem.constraints if c.output not in known)
+    return ", ".join(_word(name).split(", ")[0] for name in names)
 
 
 def _rungs(axes: Axes, optimum: Optimum) -> None:
@@ -164,7 +176,8 @@ def _limits(axes: Axes, optimum: Optimum) -> None:
             one = f"1 {_unit(c.output)}" if _unit(c.output) else "0.01"
             worth = price if _unit(c.output) else 0.01 * price
             words.append(f"{one} is worth {worth:.2g} {_unit(optimum.problem.goal.output)}")
-        axes.text(0.0, place + 0.16, ", ".join(words), fontsize=8.5, va="bottom", color="#222")
+        axes.text(0.0, place + 0.16, ", ".join(words), fontsize=8.5, va="bottom", color="#222",
+                  zorder=3, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8})
     axes.axvline(1.0, color="#111", linewidth=1.2)
     axes.set(yticks=[], xlim=(0.0, 1.25), ylim=(-0.5, len(y) - 0.4))
     axes.grid(False)
