@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -157,6 +157,13 @@ class Equilibrium:
 
 class _Resin(ResinBody):
     """A resin body by the names that an elastomer has for the same."""
+
+    def __init__(
+        self, comm: MPI.Comm, grid: TetMesh, material: Elastic, clamped: Sequence[str] = (),
+        symmetry: Mapping[str, int] | None = None,
+    ) -> None:
+        held = [(face, axis) for face in clamped for axis in range(3)]
+        super().__init__(comm, grid, material, [*held, *(symmetry or {}).items()])
 
     @property
     def u(self) -> Any:
