@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -17,10 +17,8 @@ from .chambers import Chambers
 from .drawing import Drawing
 from .elastomer import Elastomer
 from .elements import element as element_named
-from .errors import is_count, require
+from .errors import require
 from .forms.gravity import mass_density
-from .frame import BeamFrame
-from .geometry.frame import join
 from .geometry.rib import RibGeometry
 from .geometry.wing import WingGeometry
 from .geometry.wing_mesh import WingMeshing, wing_mesh
@@ -28,7 +26,6 @@ from .glue import Glue
 from .inertia import Regularisation
 from .iterate import Iterate
 from .ladder import AUTO, Pick, pick
-from .linked_ribs import LinkedRibs
 from .materials import DRAGON_SKIN_30, RESIN, Adhesive, Elastic, Yeoh
 from .newton import Newton
 from .path import Path, State
@@ -39,34 +36,8 @@ from .tension import check_tension
 from .weight import Weight
 from .wing_angles import wing_angles
 from .wing_drawing import wing_drawing
+from .wing_rungs import FIDELITIES, checked_model, made_ribs
 from .wing_trim import TrimmedWing
-
-
-@dataclass(frozen=True)
-class WingFidelity:
-    """One rung of the wing's ladder.
-
-    Attributes
-    ----------
-    meshing, element
-        Of the elastomer.
-    rib_model
-        One of `RIB_MODELS`.
-    """
-
-    meshing: WingMeshing
-    element: str
-    rib_model: str = "frame"
-
-
-FIDELITIES = {
-    "draft": WingFidelity(WingMeshing.fine(), "Q1 enhanced"),
-    "standard": WingFidelity(WingMeshing.coarse(), "Q2 reduced"),
-    "reference": WingFidelity(WingMeshing.resolved(), "Q2 reduced", "cell"),
-}
-
-RIB_MODELS = {"frame": None, "cell": 18, "solid": 6}
-"""How ribs are modelled, and with how many elements around a pivot."""
 
 
 class Wing(TrimmedWing):
@@ -132,13 +103,7 @@ class Wing(TrimmedWing):
                     "element or a rib_model of one's own")
             picked = Pick(picked.fidelity, None)
         rung = FIDELITIES[picked.fidelity]
-        model = rung.rib_model if rib_model is None else rib_model
-        require(model in RIB_MODELS, "rib_model", model, "", f"one of {', '.join(RIB_MODELS)}")
-        if around is None:
-            around = RIB_MODELS[model]
-        else:
-            require(model != "frame" and is_count(around) and around >= 4, "around", around, "",
-                    'a whole number of at least 4, with rib_model "cell" or "solid"')
+        model, around = checked_model(rung.rib_model if rib_model is None else rib_model, around)
         prestretch = tuple(geometry.skin_prestretch) if geometry.is_prestretched else None
         if prestretch is not None:
             self.load_names = (*self.load_names, "prestretch_part")
@@ -155,7 +120,7 @@ class Wing(TrimmedWing):
         )
         unknowns = [self.body.block]
         if geometry.rib is not None:
-            self.ribs = self._made_ribs(around)
+            self.ribs = made_ribs(self.comm, geometry, resin, model, around, options_prefix)
             law = adhesive or Adhesive(geometry.glue_stiffness)
             self.glue = Glue(self.body, self.ribs, geometry, law)
             unknowns += self.ribs.unknowns
@@ -268,15 +233,6 @@ class Wing(TrimmedWing):
             self.glue.recall(memory["glue"])
 
     # -- what the scene is made of ------------------------------------------------------------
-
-    def _made_ribs(self, around: int | None) -> BarMesh | SolidRibs:
-        rib, roots = self.geometry.rib, self.geometry.rib_roots()
-        if self.rib_model == "solid":
-            return SolidRibs(self.comm, rib, self.resin, around, roots)
-        if self.rib_model == "cell":
-            return LinkedRibs(self.comm, rib, self.resin, around, roots,
-                              prefix=self._options_prefix + "ribs_")
-        return BeamFrame(self.comm, join([rib.frame().placed(x) for x in roots]), self.resin)
 
     def _iterates(self) -> list[Iterate]:
         return [part.iterate for part in self._parts() if part.iterate is not None]

@@ -21,7 +21,8 @@ from ..burial import bury
 from ..geometry.hexmesh import two_sided, uniform
 from ..geometry.wing import WingGeometry
 from ..ladder import LADDERS
-from ..wing import FIDELITIES, Wing
+from ..wing import Wing
+from ..wing_rungs import FIDELITIES
 from .trial import row
 
 SHORT = 3

@@ -18,7 +18,7 @@ from morphing_wing.scene_file import parse_scene
 from morphing_wing.studies import case_outputs
 from morphing_wing.studies.case import Case, run_case
 from morphing_wing.studies.case_outputs import check_outputs
-from morphing_wing.wing import FIDELITIES
+from morphing_wing.wing_rungs import FIDELITIES
 
 pytestmark = pytest.mark.quick
 
