@@ -229,7 +229,7 @@ def memory(mesh):
     scene = wing(mesh)
     loaded(scene)
     before, assembled = peak_MB(comm), time.perf_counter()
-    factor = scene.newton.linearise()._inner.getFactorMatrix()
+    factor = scene.newton.linearise()._inner.matrix
     entries = factor.getMumpsInfog(29)
     say(comm, {"mesh": mesh, "unknowns": scene.dofs, "assembly, s": round(assembled - clock, 1),
                "factor, s": round(time.perf_counter() - assembled, 1),

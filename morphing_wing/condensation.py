@@ -16,6 +16,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from . import blas
+from .cholesky import Cholesky
 from .cut_fields import COLUMNS, HELD, MIRRORED, fields
 from .geometry.rib import RibGeometry
 from .geometry.rib_cell import PIECES, Cut, cuts, one_cell, rib_piece
@@ -120,30 +121,19 @@ def _schur(K: PETSc.Mat, rows: np.ndarray, moved: np.ndarray, prefix: str) -> np
     P = PETSc.Mat().createDense(
         ((len(rows), None), (None, moved.shape[1])), array=np.asfortranarray(moved), comm=comm)
     F = K_ib.matMult(P)
-    pc = PETSc.PC().create(comm)
-    pc.setOptionsPrefix(prefix)
-    pc.setType("cholesky")
-    pc.setFactorSolverType("mumps")
-    pc.setOperators(K_ii)
-    options, memory = PETSc.Options(prefix), "mat_mumps_icntl_14"
-    ours = not options.hasName(memory)
-    if ours:  # per cent: of small matrices MUMPS guesses it too small
-        options.setValue(memory, 200)
-    pc.setFromOptions()
-    pc.setUp()
-    if ours:  # others have this prefix too
-        options.delValue(memory)
-    failed = pc.getFactorMatrix().getMumpsInfog(1)
-    if failed < 0:
-        raise RuntimeError(f"a piece of the rib could not be factorised (MUMPS error {failed})")
+    factor = Cholesky(prefix)
+    factor.factorise(K_ii)
+    if factor.error < 0:
+        raise RuntimeError(
+            f"a piece of the rib could not be factorised (MUMPS error {factor.error})")
     X = F.duplicate()
-    pc.getFactorMatrix().matSolve(F, X)
+    factor.matrix.matSolve(F, X)
     direct = K_bb.matMult(P)
     # With its error e, minus the solution stores e . K e more: none of first order.
     inside = K_ii.matMult(X)
     parts = [(P, direct, 1.0), (F, X, -1.0), (X, F, -1.0), (X, inside, 1.0)]
     found = comm.allreduce(sum(
         sign * left.getDenseArray().T @ right.getDenseArray() for left, right, sign in parts))
-    for thing in (pc, P, F, X, direct, inside, K_bb, K_ib, K_ii, K, b, i):
+    for thing in (factor, P, F, X, direct, inside, K_bb, K_ib, K_ii, K, b, i):
         thing.destroy()
     return 0.5 * (found + found.T)

@@ -16,6 +16,8 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from .cholesky import Cholesky
+
 
 @dataclass(frozen=True)
 class Regularisation:
@@ -84,7 +86,7 @@ class InertiaCholesky:
         self.tolerated = 0
         self.part: Callable[[PETSc.Vec], float] | None = None
         self._prefix = prefix
-        self._inner: PETSc.PC | None = None
+        self._inner: Cholesky | None = None
         self._unit_value: float | None = None
         self._diagonal: PETSc.Vec | None = None
         self._changed = False
@@ -110,8 +112,10 @@ class InertiaCholesky:
         self.incurable = self.surplus > self.tolerated
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, y: PETSc.Vec) -> None:
-        """Solve, and shorten a step that is too long."""
+        """Solve, and shorten a step that is too long. Without a factor the step is NaN."""
         self.solve(b, y)
+        if self.error < 0:
+            return
         if self.regularisation is not None:
             length = self._length(y)
             if length > self.regularisation.longest_step:
@@ -122,7 +126,7 @@ class InertiaCholesky:
     def solve(self, b: PETSc.Vec, y: PETSc.Vec) -> None:
         """Solve with the last factor, however long what comes out."""
         assert self._inner is not None
-        self._inner.apply(b, y)
+        self._inner.solve(b, y)
 
     def inspect(self, matrix: PETSc.Mat) -> None:
         """Factorise a tangent without mass, to count its negative pivots."""
@@ -148,15 +152,15 @@ class InertiaCholesky:
         self._unit_value = memory.get("mass_unit", self._unit_value)
 
     def begin(self) -> None:
-        """Forget the mass that the solve before, perhaps one that failed, has left."""
-        self.amount, self.incurable = 0.0, False
+        """Forget the mass and the error that the solve before, perhaps one that failed, left."""
+        self.amount, self.incurable, self.error = 0.0, False, 0
 
     # -- the rule -----------------------------------------------------------------------------
 
     @property
     def exists(self) -> bool:
         """Whether there is a factor to solve with."""
-        return self._inner is not None
+        return self._inner is not None and self._inner.error >= 0
 
     @property
     def surplus(self) -> int:
@@ -191,14 +195,7 @@ class InertiaCholesky:
 
     def _factorise(self) -> None:
         if self._inner is None:
-            self._inner = PETSc.PC().create(self._matrix.comm)
-            self._inner.setOptionsPrefix(self._prefix)
-            self._inner.setType("cholesky")
-            self._inner.setFactorSolverType("mumps")
-            self._inner.setOperators(self._matrix)
-            # A ScaLAPACK root would hide its pivots from the count.
-            PETSc.Options(self._prefix).setValue("mat_mumps_icntl_13", 1)
-            self._inner.setFromOptions()
+            self._inner = Cholesky(self._prefix)
         if self.amount > 0.0:
             diagonal = self._diagonal.copy()
             diagonal.array += self.amount * self.regularisation.mass
@@ -209,8 +206,6 @@ class InertiaCholesky:
         elif self._changed:
             self._matrix.setDiagonal(self._diagonal)
             self._matrix.assemble()
-        self._inner.setOperators(self._matrix)
-        self._inner.setUp()
+        self._inner.factorise(self._matrix)
         self.factorisations += 1
-        factor = self._inner.getFactorMatrix()
-        self.error, self.negative_pivots = factor.getMumpsInfog(1), factor.getMumpsInfog(12)
+        self.error, self.negative_pivots = self._inner.error, self._inner.negative_pivots

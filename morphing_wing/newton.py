@@ -172,6 +172,8 @@ class Newton:
             # of another state, perhaps one of a solve that failed.
             self._assemble(iterations)
             self.factor.inspect(self.system.matrix)
+            if self.factor.error < 0:
+                reason = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
         if reason > 0:
             self.factor.tolerated = max(self.factor.surplus, 0)
         return NewtonResult(
@@ -240,7 +242,7 @@ class Newton:
             return _NOT_A_NUMBER
         if residual <= self._tolerance:
             return reason.CONVERGED_FNORM_ABS
-        if self.factor.incurable:
+        if self.factor.incurable or self.factor.error < 0:
             return reason.DIVERGED_LINEAR_SOLVE
         if iteration > 0:
             unregularised = self.factor.amount == 0.0

@@ -94,16 +94,30 @@ def test_options_of_mumps_are_open_under_the_solvers_prefix(mumps):
     mumps.setValue("mat_mumps_icntl_14", 77)
     strip = Strip(0.0, regularised=False)
     strip.push(0.01)
-    factor = strip.newton.factor._inner.getFactorMatrix()
+    factor = strip.newton.factor._inner.matrix
     assert (factor.getMumpsIcntl(14), factor.getMumpsIcntl(13)) == (77, 1)
 
 
 @pytest.mark.quick
-def test_a_factorisation_without_memory_is_not_taken_for_a_cell_inside_out(mumps):
+@pytest.mark.parametrize("regularised", [False, True])
+def test_a_factorisation_without_memory_is_no_solution_and_no_cell_inside_out(mumps, regularised):
     mumps.setValue("mat_mumps_icntl_23", 1)  # MB
-    result = Strip(0.0, False, cells=40).push(0.01)
+    result = Strip(0.0, regularised, cells=40).push(0.01)
     assert not result.converged
     assert result.reason.startswith("the tangent could not be factorised (MUMPS error -")
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("regularised", [False, True])
+def test_after_a_factorisation_that_failed_the_next_solve_factorises_anew(mumps, regularised):
+    strip = Strip(0.1, regularised, cells=40)
+    at_rest = strip.body.function.x.array.copy()
+    mumps.setValue("mat_mumps_icntl_14", -90)
+    assert strip.push(0.01).reason.startswith("the tangent could not be factorised (MUMPS error -")
+    strip.body.function.x.array[:] = at_rest
+    strip.body.iterate.accept()
+    mumps.delValue("mat_mumps_icntl_14")
+    assert strip.push(0.01).converged
 
 
 def test_all_solves_share_one_matrix():
