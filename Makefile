@@ -31,7 +31,7 @@ demo: setup
 	mpirun -n $(ranks) $(python) demos/full_wing.py
 
 test: setup
-	$(python) -m pytest --ignore=tests/parallel
+	$(python) -m pytest -n $(ranks) --dist loadfile --ignore=tests/parallel
 	mpirun -n 2 $(parallel)
 	mpirun -n 3 $(parallel)
 
