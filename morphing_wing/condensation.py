@@ -121,7 +121,7 @@ def _schur(K: PETSc.Mat, rows: np.ndarray, moved: np.ndarray, prefix: str) -> np
     P = PETSc.Mat().createDense(
         ((len(rows), None), (None, moved.shape[1])), array=np.asfortranarray(moved), comm=comm)
     F = K_ib.matMult(P)
-    factor = Cholesky(prefix)
+    factor = Cholesky(prefix, space=200)  # of small matrices MUMPS guesses it too small
     factor.factorise(K_ii)
     if factor.error < 0:
         raise RuntimeError(
