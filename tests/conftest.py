@@ -1,12 +1,15 @@
 """For all tests: MPI's manners. Ranks finish each test together, and fail together."""
 
 import gc
+import os
 import sys
 
 import pytest
 from mpi4py import MPI
 
 import morphing_wing  # noqa: F401  before DOLFINx and numpy: it prepares BLAS and MPI
+
+os.environ.pop("COLUMNS", None)  # pytest-xdist's own: what is printed would be wrapped by it
 
 
 @pytest.fixture(autouse=True)
