@@ -17,8 +17,8 @@ from morphing_wing.solid_ribs import SolidRibs
 @pytest.fixture(params=[RibGeometry.validation("square", True), RibGeometry.prototype()],
                 ids=["3.3-square", "5.1-flush"])
 def pair(request, monkeypatch):
-    monkeypatch.setitem(condensed_rib.AROUND, "cell", 12)
-    monkeypatch.setitem(solid_rib.AROUND, "standard", 12)
+    monkeypatch.setitem(condensed_rib.AROUND, "cell", 16)
+    monkeypatch.setitem(solid_rib.AROUND, "standard", 16)
     geometry = replace(request.param, n_cells=2)
     return [Rib(geometry, fidelity=name, comm=MPI.COMM_SELF) for name in ("cell", "standard")]
 
