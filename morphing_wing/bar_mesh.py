@@ -26,7 +26,7 @@ class BarMesh:
     Parameters
     ----------
     comm
-        Communicator; the mesh is distributed over it.
+        Communicator; the ribs are distributed over it, each whole.
     frame
         Points, bars, axes and sections; the same on every rank.
     material
@@ -61,7 +61,7 @@ class BarMesh:
         held: Sequence[int] = (),
     ) -> None:
         self.comm, self.frame, self.material = comm, frame, material
-        self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points)
+        self.mesh = compat.create_mesh(comm, "interval", frame.bars, frame.points, frame.ribs)
         self.bars = compat.original_cells(self.mesh)
         self.function = fem.Function(compat.vector_space(self.mesh, degree, 6), name="ribs")
         every = np.arange(len(self.function.x.array), dtype=np.int32).reshape(-1, 6)

@@ -40,7 +40,10 @@ else:
 # -- meshes -----------------------------------------------------------------------------------
 
 
-def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray) -> Any:
+def create_mesh(
+    comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray,
+    groups: np.ndarray | None = None,
+) -> Any:
     """Distribute a mesh of first-order cells, or of second-order tetrahedra.
 
     Parameters
@@ -48,15 +51,18 @@ def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray
     comm
         Communicator; every rank calls, the cells of rank 0 are used.
     cell
-        ``"hexahedron"`` (tensor-product vertex order), ``"interval"`` (may branch) or
-        ``"tetrahedron"``.
+        ``"hexahedron"`` (tensor-product vertex order), ``"interval"`` or ``"tetrahedron"``.
     cells
         Vertices of each cell, then the middles of its edges if they are curved, in the order of
         finite elements, shape (n_cells, n_nodes).
     points
         Coordinates in mm, shape (n_points, 3).
+    groups
+        Which group each cell is of, from 0: one rank gets all of a group. Where intervals branch
+        there must be no other rank's: to some DOLFINx the point would be two, unconnected.
     """
     degree = 2 if cells.shape[1] == 10 else 1
+    options = {} if groups is None else {"partitioner": _partitioner(comm, groups)}
     if comm.rank != 0:
         cells, points = cells[:0], points[:0]
     cells = np.ascontiguousarray(cells, dtype=np.int64)
@@ -65,12 +71,21 @@ def create_mesh(comm: MPI.Comm, cell: str, cells: np.ndarray, points: np.ndarray
         if _HAS_BASIX_UFL:
             element = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
             arguments = (element, points) if _cells_then_element() else (points, element)
-            return dolfinx.mesh.create_mesh(comm, cells, *arguments)
+            return dolfinx.mesh.create_mesh(comm, cells, *arguments, **options)
         # FFCx gives coordinate elements without a variant one in place, at the first compilation;
         # arguments made before and after that would then count as different.
         shape = ufl.Cell(cell, geometric_dimension=3)
         domain = ufl.Mesh(ufl.VectorElement("Lagrange", shape, degree, variant="equispaced"))
-        return dolfinx.mesh.create_mesh(comm, cells, points, domain, dolfinx.mesh.GhostMode.none)
+        ghosts = dolfinx.mesh.GhostMode.none
+        return dolfinx.mesh.create_mesh(comm, cells, points, domain, ghosts, **options)
+
+
+def _partitioner(comm: MPI.Comm, groups: np.ndarray) -> Callable[..., Any]:
+    """Return what tells DOLFINx the rank of each cell of rank 0, all of a group the same one."""
+    given = groups if comm.rank == 0 else groups[:0]
+    ranks = np.asarray(given * comm.size // (groups.max(initial=0) + 1), dtype=np.int32)
+    starts = np.arange(len(ranks) + 1, dtype=np.int32)
+    return lambda *_: dolfinx.cpp.graph.AdjacencyList_int32(ranks, starts)
 
 
 def _cells_then_element() -> bool:

@@ -57,7 +57,8 @@ class FieldGrid:
         self.cell_name = mesh.topology.cell_type.name
         owned = mesh.topology.index_map(mesh.topology.dim).size_local
         topology, types, points = compat.vtk_mesh(self._space)
-        vtk = topology.reshape(len(types), -1)[:owned, 1:]
+        per_cell = self._space.dofmap.dof_layout.num_dofs  # also where a rank has no cell
+        vtk = topology.reshape(len(types), 1 + per_cell)[:owned, 1:]
         nodes = np.array([self._space.dofmap.cell_dofs(cell) for cell in range(owned)])
         nodes = nodes.reshape(vtk.shape).astype(np.int64)
         index_map = self._space.dofmap.index_map

@@ -94,6 +94,7 @@ def test_spar_of_each_kind_of_element_is_the_same(element):
     compare(run)
 
 
+@pytest.mark.quick
 def test_rib_is_the_same():
     def run(comm):
         return Rib(RibGeometry.validation(), comm=comm).bend(torque=[2.0, 5.0])
@@ -113,6 +114,7 @@ def wing(comm):
     return small_wing(comm).actuate(upper=[0.005, 0.01], cable=[0.0, 0.1])
 
 
+@pytest.mark.quick
 def test_wing_with_ribs_skin_cables_and_pressure_is_the_same():
     compare(wing, without=("gap_mm",))
 
