@@ -6,12 +6,7 @@ version numbers.
 
 from __future__ import annotations
 
-import fcntl
-import logging
-import os
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, nullcontext, suppress
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import dolfinx
@@ -23,6 +18,8 @@ from dolfinx import fem
 from mpi4py import MPI
 from petsc4py import PETSc
 from scipy.sparse import bsr_matrix, csr_matrix
+
+from .compilation import compiling
 
 # Hyperelastic kernels are long; optimising them halves assembly. -Ofast would defeat NaN checks.
 _JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"], "cffi_libraries": ["m"]}
@@ -58,8 +55,8 @@ def create_mesh(
     points
         Coordinates in mm, shape (n_points, 3).
     groups
-        Which group each cell is of, from 0: one rank gets all of a group. Where intervals branch
-        there must be no other rank's: to some DOLFINx the point would be two, unconnected.
+        Which group each cell is of, from 0: one rank gets all of a group. Intervals that
+        branch must be of one group: some DOLFINx make two points of one that ranks share.
     """
     degree = 2 if cells.shape[1] == 10 else 1
     options = {} if groups is None else {"partitioner": _partitioner(comm, groups)}
@@ -67,7 +64,7 @@ def create_mesh(
         cells, points = cells[:0], points[:0]
     cells = np.ascontiguousarray(cells, dtype=np.int64)
     points = np.ascontiguousarray(points, dtype=np.float64)
-    with _compiling(comm):
+    with compiling(comm):
         if _HAS_BASIX_UFL:
             element = basix.ufl.element("Lagrange", cell, degree, shape=(3,))
             arguments = (element, points) if _cells_then_element() else (points, element)
@@ -131,7 +128,7 @@ def cell_facets(mesh: Any) -> np.ndarray:
 
 def vector_space(mesh: Any, degree: int, size: int = 3) -> Any:
     """Return continuous Lagrange vectors (Q or P by the cell) with ``size`` components."""
-    with _compiling(mesh.comm):
+    with compiling(mesh.comm):
         if _HAS_BASIX_UFL:
             return fem.functionspace(mesh, ("Lagrange", degree, (size,)))
         return fem.VectorFunctionSpace(mesh, ("Lagrange", degree), dim=size)
@@ -139,7 +136,7 @@ def vector_space(mesh: Any, degree: int, size: int = 3) -> Any:
 
 def discontinuous_space(mesh: Any, degree: int, shape: tuple[int, ...] = ()) -> Any:
     """Return discontinuous Lagrange scalars, or tensors of a shape."""
-    with _compiling(mesh.comm):
+    with compiling(mesh.comm):
         if _HAS_BASIX_UFL:
             return fem.functionspace(mesh, ("DG", degree, shape) if shape else ("DG", degree))
         family = (_discontinuous(mesh), degree)
@@ -179,7 +176,7 @@ def displacement_modes_space(mesh: Any, degree: int, n_modes: int) -> Any:
 
 
 def _with_displacement(mesh: Any, degree: int, other: Any) -> Any:
-    with _compiling(mesh.comm):
+    with compiling(mesh.comm):
         if _HAS_BASIX_UFL:
             u = basix.ufl.element("Lagrange", mesh.basix_cell(), degree, shape=(3,))
             return fem.functionspace(mesh, basix.ufl.mixed_element([u, other]))
@@ -202,7 +199,7 @@ def interpolation_points(space: Any) -> np.ndarray:
 def interpolated(space: Any, expression: Any, points: np.ndarray) -> Any:
     """Return the function of a space with an expression's values at its points in each cell."""
     function = fem.Function(space)
-    with _compiling(space.mesh.comm):
+    with compiling(space.mesh.comm):
         function.interpolate(fem.Expression(expression, points))
     return function
 
@@ -216,62 +213,8 @@ def form(expression: Any) -> Any:
     of_points = all(integral.metadata().get("quadrature_degree") == 0
                     for integral in expression.integrals())
     options = _JIT_OPTIONS_OF_POINTS if of_points else _JIT_OPTIONS
-    with _compiling(comm):
+    with compiling(comm):
         return fem.form(expression, **{_JIT_KEYWORD: options})
-
-
-@contextmanager
-def _compiling(comm: MPI.Comm) -> Iterator[None]:
-    # All are to be here before rank 0 locks the cache: who still builds alone needs it too.
-    comm.Barrier()
-    with _quiet_compiler(), _alone_in_cache() if comm.rank == 0 else nullcontext():
-        yield
-
-
-@contextmanager
-def _alone_in_cache() -> Iterator[None]:
-    """Let one process at a time compile, and forget what a compiler that was killed has left.
-
-    Otherwise others give up after ten seconds' wait, and an unfinished kernel fails for ever.
-    """
-    folder = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "fenics"
-    with ExitStack() as held:
-        with suppress(OSError):  # where files cannot be locked, compile without
-            folder.mkdir(parents=True, exist_ok=True)
-            lock = held.enter_context(open(folder / "morphing-wing.lock", "w"))
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            if _cleared.get(folder) != _changed(folder):
-                _clear(folder)
-        yield
-        with suppress(OSError):
-            _cleared[folder] = _changed(folder)
-
-
-_cleared: dict[Path, int] = {}
-"""When each cache last changed that had nothing unfinished in it."""
-
-
-def _changed(folder: Path) -> int:
-    return folder.stat().st_mtime_ns
-
-
-def _clear(folder: Path) -> None:
-    """Remove what was not finished; the cache may hold thousands of files."""
-    names = set(os.listdir(folder))
-    for name in names:
-        if name.endswith(".c") and f"{name}.cached" not in names:
-            (folder / name).unlink()
-
-
-@contextmanager
-def _quiet_compiler() -> Iterator[None]:
-    """Keep the build tool's log of compiler calls off the screen."""
-    before = logging.root.manager.disable
-    logging.disable(logging.INFO)
-    try:
-        yield
-    finally:
-        logging.disable(before)
 
 
 def assemble_scalar(comm: MPI.Comm, functional: Any) -> float:
