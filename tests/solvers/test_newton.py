@@ -120,6 +120,17 @@ def test_after_a_factorisation_that_failed_the_next_solve_factorises_anew(mumps,
     assert strip.push(0.01).converged
 
 
+@pytest.mark.quick
+def test_a_state_whose_own_tangent_has_no_factor_is_not_called_converged(monkeypatch):
+    strip = Strip(0.1, regularised=True)
+    assert strip.push(0.01).converged
+    factor = strip.newton.factor
+    monkeypatch.setattr(factor, "inspect", lambda _: setattr(factor, "error", -13))
+    result = strip.push(0.01)  # nothing to do but to inspect
+    assert not result.converged
+    assert result.reason == "the tangent could not be factorised (MUMPS error -13)"
+
+
 def test_all_solves_share_one_matrix():
     strip = Strip(0.1, regularised=True)
     handle = strip.system.matrix.handle
